@@ -42,6 +42,8 @@ class Case(DisplayableGroup, Problem):
         Entries of the report's title block, by name.
     allowable : mapping of str to float
         Limits by the names of scalars or stresses, in SI units.
+    leakage : mapping of str to object
+        Settings of the leakage, by the arguments of `leakage`, in SI units; empty without it.
     digests : mapping of Path to bytes
         SHA-256 of each of those files, and of the case file, when it was read.
     measured : mapping of str to mapping
@@ -63,6 +65,7 @@ class Case(DisplayableGroup, Problem):
     files: Mapping[KeyPath, Path]
     title_block: Mapping[str, str]
     allowable: Mapping[str, float]
+    leakage: Mapping[str, Any]
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]
     fits: Mapping[str, Fit] = field(repr=False)

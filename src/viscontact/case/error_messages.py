@@ -16,6 +16,7 @@ from viscontact.case.document import Document, as_written
 from viscontact.case.errors import KeyPath, dotted
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
+from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.loads.temperature import AnyTemperature
 from viscontact.case.materials.layers import AnyBody, Layer
@@ -35,6 +36,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "output": time_grid_output.Output,
     "report": TitleBlock,
     "allowable": Allowable,
+    "leakage": Leakage,
 }
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)

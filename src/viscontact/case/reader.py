@@ -149,6 +149,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         temperature=found.temperature.built if found.temperature else None,
         title_block=found.report.entries,
         allowable=found.allowable.limits,
+        leakage=found.leakage.settings if found.leakage else {},
         grid=found.grid.build() if found.grid else None,
         times=times,
         indenter_material=of_indenter.built if of_indenter else None,

@@ -16,6 +16,7 @@ from viscontact.bodies.loads.temperature import require_constant
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.indenters.shapes import Shapes
+from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.loads.temperature import AnyTemperature
 from viscontact.case.materials.base import Medium
@@ -58,6 +59,9 @@ class CaseFile(Section):
     allowable: Allowable = Field(
         default=Allowable(), description="limits that the result is compared with"
     )
+    leakage: Leakage | None = Field(
+        default=None, description="fluid that leaks through the gap; not computed when left out"
+    )
     tolerance: Annotated[float, Field(ge=FINEST_TOLERANCE, le=COARSEST_TOLERANCE)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )
@@ -75,6 +79,13 @@ class CaseFile(Section):
     def body_motion(self) -> Motion:
         """The motion of the body."""
         return self.motion.built if self.motion else STANDING
+
+    @model_validator(mode="after")
+    def _fits_the_leakage(self) -> CaseFile:
+        if self.leakage is not None:
+            grid = self.grid.build() if self.grid else None
+            self.leakage.require_fit(self.output.fields, grid if isinstance(grid, Grid) else None)
+        return self
 
     @model_validator(mode="after")
     def _fits_the_motion(self) -> CaseFile:

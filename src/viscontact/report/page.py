@@ -16,6 +16,7 @@ from viscontact.drawing.plotly.run_figures import run_figures
 from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.html_page import html_page
+from viscontact.report.leak_chapter import leak_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
@@ -124,6 +125,7 @@ def run_chapters(ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]
         ("allowable", "Allowable values", verdict_chapter(ds)),
         ("pressure", "Pressure", shown["pressure"]),
         ("spots", "Contact spots", result_chapters.spots_chapter(ds)),
+        ("leakage", "Leakage", leak_chapter(ds)),
         ("stress", "Stress below the surface", stress_chapter(ds)),
         (
             *("histories", run_axis(ds).heading),

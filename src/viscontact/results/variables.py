@@ -291,6 +291,9 @@ MESH_DEPENDENT = "depends on the mesh"
 #: Attribute of a result with the allowable values and the verdicts on them.
 ALLOWABLE = "allowable"
 
+#: Attribute of a result with the settings of the leakage that its case asks for.
+LEAKAGE = "leakage"
+
 #: Stresses that may be limited, by name, and what they are.
 STRESSES = {"von_mises": "von Mises stress", "max_shear": "Largest shear stress"}
 

@@ -10,13 +10,17 @@ import typer
 from viscontact.cli.commands.showing import RunDirectory
 
 Viscosity = Annotated[
-    str, typer.Option("--viscosity", metavar="ETA", help="Of the fluid, e.g. '1 mPa s'.")
+    str | None,
+    typer.Option("--viscosity", metavar="ETA", help="Of the fluid, e.g. '1 mPa s'."),
 ]
 Difference = Annotated[
     str | None,
     typer.Option("--pressure-difference", metavar="DP", help="Across the seal, e.g. '1 bar'."),
 ]
-Along = Annotated[str, typer.Option("--along", metavar="x|y|both", help="Direction of the flow.")]
+Along = Annotated[
+    str | None,
+    typer.Option("--along", metavar="x|y|both", help="Direction of the flow, by default x."),
+]
 Ends = Annotated[
     str | None,
     typer.Option(
@@ -45,9 +49,9 @@ Written = Annotated[
 
 def leakage(
     directory: RunDirectory,
-    viscosity: Viscosity,
+    viscosity: Viscosity = None,
     pressure_difference: Difference = None,
-    along: Along = "x",
+    along: Along = None,
     ends: Ends = None,
     length: Length = None,
     width: Width = None,
@@ -57,7 +61,8 @@ def leakage(
     """Find how much fluid leaks through the gap of a run, at its stored instants.
 
     The widest channel and its narrowest place, the transmissivity of the gap, and the leak rate
-    with a pressure difference. Without a channel nothing leaks. The figure is the leak rate over
+    with a pressure difference. Without a channel nothing leaks. What is left out is taken from the
+    section `leakage` of the case, if it has one. The figure is the leak rate over
     time; `viscontact plot DIR leak-channel` shows the channel.
     """
     from viscontact.cli.results.leakage import print_leakage
@@ -68,5 +73,7 @@ def leakage(
         "length": length,
         "width": width,
         "gas": gas,
+        "along": along,
+        "ends": ends,
     }
-    print_leakage(directory, texts, {"along": along, "ends": ends}, output)
+    print_leakage(directory, texts, output)

@@ -7,6 +7,7 @@ import xarray as xr
 from viscontact.cli.terminal.console import TextConsole, styled
 from viscontact.cli.terminal.messages import put
 from viscontact.results.contact_spots import last_spots
+from viscontact.results.leakage.of_case import leakage_lines
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.run_axis import run_axis
 from viscontact.results.verdicts import Verdict, verdicts
@@ -18,6 +19,8 @@ def print_findings(console: TextConsole, ds: xr.Dataset) -> None:
     """Print the spots of a contact, events, and verdicts on allowable values; those there are."""
     if spots := last_spots(ds):
         put(spots.text)
+    for line in leakage_lines(ds):
+        put(line)
     for event in recorded_events(ds):
         put(f"event at {event.text}")
     for each in verdicts(ds):

@@ -17,6 +17,7 @@ from viscontact.cli.results.stored import checked_result, early_end
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.results.leakage.leakage import leakage
+from viscontact.results.leakage.of_case import leakage_settings
 from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_quantity, time_labels
 from viscontact.units.parsing import parse_quantity
@@ -31,21 +32,21 @@ _DIMENSIONS = {
 }
 
 
-def print_leakage(
-    directory: Path,
-    texts: Mapping[str, str | None],
-    words: Mapping[str, Any],
-    output: Path | None,
-) -> None:
-    """Print the leakage of a run, and write the file that is named."""
+def print_leakage(directory: Path, texts: Mapping[str, str | None], output: Path | None) -> None:
+    """Print the leakage of a run, with the settings of its case, and write the named file."""
     given: dict[str, Any] = {
-        name: _quantity(name, text) for name, text in texts.items() if text is not None
+        name: _quantity(name, text) if name in _DIMENSIONS else text
+        for name, text in texts.items()
+        if text is not None
     }
     with checked_result(directory) as ds:
         if ended := early_end(ds):
             say(ended)
         try:
-            found = leakage(ds, **given, **words)
+            settings = leakage_settings(ds) | given
+            if "viscosity" not in settings:
+                refuse("--viscosity is needed, as '1 mPa s': the case has no section 'leakage'")
+            found = leakage(ds, **settings)
         except ValueError as error:
             refuse(_as_typed(str(error)))
     _print(found)

@@ -85,6 +85,7 @@ def filed_case(case: Case) -> FiledCase:
         case.document.data_with_tolerances,
         case.measured,
         case.allowable,
+        case.leakage,
     )
 
 

@@ -28,7 +28,7 @@ from viscontact.units.parsing import parse_quantity
 #: Largest number of changes of a case that are listed.
 _MAX_CHANGES = 12
 #: Keys without influence on the numbers.
-_IRRELEVANT = ("title", "report", "allowable")
+_IRRELEVANT = ("title", "report", "allowable", "leakage")
 
 
 def standing(request: RunRequest, recorded: Recorded, case: Case) -> RunStage:

@@ -1,0 +1,66 @@
+"""Leakage that the case of a result asks for."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from viscontact.results.leakage.leakage import leakage
+from viscontact.results.run_axis import run_axis
+from viscontact.results.variables import LEAKAGE
+from viscontact.units.formatting import format_quantity
+
+
+def leakage_settings(ds: xr.Dataset) -> dict[str, Any]:
+    """Arguments of `leakage` that the case of a result gives; empty without a section."""
+    try:
+        found = json.loads(str(ds.attrs.get(LEAKAGE, "")))
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def case_leakage(ds: xr.Dataset, *, last: bool = False) -> xr.Dataset | None:
+    """Leakage at all stored instants, or the last one; None where the case asks for none.
+
+    None as well for a run that has not stored a gap yet.
+    """
+    settings = leakage_settings(ds)
+    if not settings or "gap" not in ds or not ds.sizes[str(ds["pressure"].dims[0])]:
+        return None
+    shown = ds.isel({str(ds["pressure"].dims[0]): [-1]}) if last else ds
+    return leakage(shown, **settings)
+
+
+def leakage_lines(ds: xr.Dataset) -> list[str]:
+    """Leakage at the last stored instant in sentences, one for each direction."""
+    try:
+        found = case_leakage(ds, last=True)
+    except ValueError as error:  # the channel leads beyond the body, or is too large
+        return [str(error)]
+    if found is None:
+        return []
+    place = run_axis(found).place(float(run_axis(found).values(found)[-1]))
+    several = "direction" in found.dims
+    directions = found["direction"].values.tolist() if several else [""]
+    lines = []
+    for direction in directions:
+        row = found.sel(direction=direction) if several else found
+        where = f"leakage at {place}{f' along {direction}' if direction else ''}"
+        lines.append(f"{where}: {_in_words(row)}")
+    return lines
+
+
+def _in_words(row: xr.Dataset) -> str:
+    if not float(row["percolates"][-1]):
+        return "closed, no channel leads through"
+    gaps = [format_quantity(float(row[n][-1]), "m", 3) for n in ("critical_gap", "effective_gap")]
+    text = f"critical gap {gaps[0]}, effective gap {gaps[1]}"
+    rate, error = float(row["leak_rate"][-1]), float(row["leak_rate_error"][-1])
+    if not np.isfinite(rate):
+        return text
+    spread = f"{100 * error / rate:.2g} %" if error < rate else f"a factor {1 + error / rate:.2g}"
+    return f"{text}, leak rate {rate * 1e9:.3g} mm³/s (error {spread})"
