@@ -406,7 +406,7 @@ def test_schema_names_every_key_and_shows_units() -> None:
     json.dumps(schema)
     assert set(schema["properties"]) == {
         *("title", "indenter", "material", "indenter_material", "load", "time", "grid", "motion"),
-        *("output", "tolerance", "report", "allowable", "temperature"),
+        *("output", "tolerance", "report", "allowable", "temperature", "leakage"),
     }
     radius = schema["$defs"]["Sphere"]["properties"]["radius"]
     assert radius["examples"] == ["5 mm"]

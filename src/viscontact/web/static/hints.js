@@ -13,7 +13,7 @@ export const FIRST = [
 
 // Keys that are folded until they are set or have a problem.
 export const LATER = new Set([
-  "indenter_material", "rolling", "grid", "output", "report", "allowable", "tolerance",
+  "indenter_material", "rolling", "grid", "output", "report", "allowable", "leakage", "tolerance",
   "rotation", "offset_x", "offset_y", "cross_section",
   "bulk_modulus", "measured_until", "thickness", "temperature", "shift", "ageing", "warning",
   "mean_pressure", "tilt_x", "tilt_y", "eccentricity_y", "phase",
