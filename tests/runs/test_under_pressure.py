@@ -173,3 +173,34 @@ def test_coordinates_take_the_place_of_a_grid() -> None:
     found = vc.under_pressure(turned, BODY)
     expected = vc.under_pressure(MAP, BODY, GRID)
     np.testing.assert_allclose(found.displacement, expected.displacement, rtol=1e-9)
+
+
+def test_table_of_points_is_the_map_in_any_order(tmp_path: Path) -> None:
+    rows = [
+        f"{1e3 * y}, {1e3 * x}, {MAP[i, j] / 1e6}, {time}"
+        for time in (0, 2)
+        for j, y in enumerate(GRID.y)
+        for i, x in enumerate(GRID.x)
+    ]
+    table = tmp_path / "pressure.csv"
+    table.write_text("\n".join(["y [mm], x [mm], pressure [MPa], time [s]", *rows[::-1]]))
+    found = vc.under_pressure(table, RUBBER)
+    expected = vc.under_pressure(MAP, RUBBER, GRID, [0.0, 2.0])
+    np.testing.assert_allclose(found.time, [0.0, 2.0])
+    np.testing.assert_allclose(found.displacement, expected.displacement, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("x [mm], force [N]\n1, 2\n2, 3\n", "columns 'x .mm., y .mm., pressure .MPa.'"),
+        ("x [mm], y [mm], pressure [MPa]\n0, 0, 1\n0, 1, 1\n1, 0, 1\n", "1 of the 4 points"),
+        ("x [mm], y [mm], p [MPa]\n0, 0, 1\n0, 1, 1\n1, 0, 1\n1, 1, 1\n1, 1, 2\n", "given twice"),
+        ("x [mm], y [mm], p [MPa]\n0, 0, 1\n0, 1, 1\n", "lie on one line"),
+        ("x [mm], y [mm], pressure\n0, 0, 1\n0, 1, 1\n1, 0, 1\n1, 1, 1\n", "unit"),
+    ],
+)
+def test_bad_tables_are_refused(text: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "bad.csv").write_text(text)
+    with pytest.raises(ValueError, match=message):
+        vc.under_pressure(tmp_path / "bad.csv", BODY)

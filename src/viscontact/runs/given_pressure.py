@@ -16,6 +16,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import recorded_grid
+from viscontact.runs.pressure_files import TABLES, read_pressure
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
 
@@ -132,6 +133,8 @@ def given_pressure(
     """
     if callable(given) and not isinstance(given, xr.DataArray | xr.Dataset):
         return _formula(given), _required(grid)
+    if isinstance(given, str | Path) and Path(given).suffix.lower() in TABLES:
+        return _labelled(read_pressure(Path(given)), grid)
     if isinstance(given, str | Path):
         with open_results(given) as results:
             return given_pressure(results.load(), grid, times)

@@ -50,7 +50,8 @@ def under_pressure(
         Pressure on the cells, positive in compression [Pa]: a map of shape (nx, ny), which comes at
         time 0 and is held; maps of shape (time, nx, ny), linear in time between `times`, the first
         at 0; a function of (x, y) or (x, y, t), in m and s, for arrays; an array with the
-        coordinates x, y and perhaps time; a result with stored pressure, or its file or directory.
+        coordinates x, y and perhaps time; a result with stored pressure, or its file or directory;
+        a table (CSV or spreadsheet) with the columns x, y, pressure and perhaps time.
     material : Material or Layered
         Material of the half-space, or a body of layers.
     grid : Grid, optional

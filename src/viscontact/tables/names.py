@@ -39,6 +39,7 @@ QUANTITIES: dict[str, str | None] = {
     "r": "length",
     "drop": "length",
     "height": "length",
+    "pressure": "pressure",
 }
 
 

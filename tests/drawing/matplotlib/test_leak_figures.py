@@ -8,6 +8,7 @@ import pytest
 import synthetic_results
 import viscontact as vc
 from closeness import close_to
+from viscontact.drawing.content.given_pressure import pressure_panels
 from viscontact.drawing.content.leak import leak_map, leak_panels
 
 # Few cells are enough here.
@@ -28,6 +29,20 @@ def test_map_shows_contact_flow_and_constriction_in_their_places() -> None:
     )
     assert not shown.touched[i, j]
     assert "flow along y" in shown.heading
+
+
+def test_given_pressure_is_drawn_through_its_largest_value() -> None:
+    body, grid = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5), vc.Grid((6, 8), (3e-3, 2e-3))
+    pressure = np.arange(48.0).reshape(6, 8)
+    ds = vc.under_pressure(pressure, body, grid, [0.0, 1.0, 2.0])
+    above, below = pressure_panels(ds, [2.0], "y", "given-pressure")
+    np.testing.assert_array_equal(above.curves[0].y, pressure[5])
+    np.testing.assert_array_equal(below.curves[0].y, ds.displacement[2, 5])
+    assert below.y.is_reversed
+    with pytest.raises(ValueError, match="along must be"):
+        vc.plot.given_pressure(ds, along="z")
+    with pytest.raises(ValueError, match="give a result of"):
+        vc.plot.given_pressure(ds[["force"]])
 
 
 def test_map_of_several_instants_is_refused() -> None:

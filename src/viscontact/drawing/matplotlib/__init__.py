@@ -57,6 +57,7 @@ from viscontact.drawing.matplotlib.pressure.contact_outline import (
 )
 from viscontact.drawing.matplotlib.pressure.contact_spots import contact_spots
 from viscontact.drawing.matplotlib.pressure.deformed_surface import deformed_surface
+from viscontact.drawing.matplotlib.pressure.given_pressure import given_pressure
 from viscontact.drawing.matplotlib.pressure.leak_channel import leak_channel
 from viscontact.drawing.matplotlib.pressure.pressure_map import compare_pressure_maps, pressure_map
 from viscontact.drawing.matplotlib.pressure.pressure_radial import pressure_radial
@@ -107,6 +108,7 @@ __all__ = [
     "fitted_records",
     "fitted_series",
     "friction",
+    "given_pressure",
     "heat_balance",
     "history",
     "hysteresis",
