@@ -253,3 +253,37 @@ def test_doubts_are_warned_of() -> None:
     assert "a liquid is no continuum" in notes
     assert "a few cells wide" in notes
     assert vc.leakage(result(np.full((4, 4), 1e-6), (1e-3, 1e-3)), **FLUID).attrs["warnings"] == ""
+
+
+def same_waves(cells: int, seed: int) -> vc.Surface:
+    """Random map of the same twelve waves on a period at any number of cells on the shortest."""
+    random, most = np.random.default_rng(seed), 12
+    k = np.arange(-most, most + 1)
+    q = np.hypot(k[:, None], k)
+    size = np.where((q >= 1) & (q <= most), np.maximum(q, 4.0) ** -1.8, 0.0)
+    waves = np.zeros((cells * most, cells * most), complex)
+    waves[np.ix_(k, k)] = size * np.exp(2j * np.pi * random.random(q.shape))
+    height = np.fft.ifft2(waves).real * waves.size
+    slopes = np.abs(np.fft.fft2(height)) ** 2 / height.size**2
+    along = np.fft.fftfreq(cells * most) * cells * most
+    rms = np.sqrt((slopes * (2e3 * np.pi) ** 2 * (along[:, None] ** 2 + along**2)).sum())
+    return vc.Surface(0.1 / rms * height, 1e-3 / (cells * most), periodic=True)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("pressure", [2e4, 7e4, 1.2e5])
+def test_error_of_a_rough_contact_covers_that_of_finer_cells(seed: int, pressure: float) -> None:
+    body = vc.Material(vc.Elastic.from_uniaxial(0.75e7, 0.5), poisson_ratio=0.5)
+    found = []
+    for cells in (4, 8, 24):
+        grid = vc.Grid((12 * cells, 12 * cells), (1e-3, 1e-3), periodic=True)
+        load = vc.step(pressure * grid.area)
+        run = vc.simulate(same_waves(cells, seed), body, load, grid, [0.0], errors=False)
+        found.append(vc.leakage(run, viscosity=1.0).isel(time=0))
+    exact = float(found[-1].transmissivity)
+    for each in found[:-1]:
+        assert abs(float(each.transmissivity) - exact) < float(each.transmissivity_error)
+    assert abs(float(found[1].transmissivity) / exact - 1) < 0.06
+    assert float(found[1].critical_gap) == close_to(float(found[2].critical_gap), rel=0.05)
