@@ -98,6 +98,7 @@ TABLE = (
     FigureEntry("contact-area"),
     _fields("contact-spots", reported=Reported("spots", "Contact spots")),
     _fields("leak-channel", takes=("times", "along")),
+    _fields("leak-rate", takes=("times", "along")),
     FigureEntry(
         "history",
         compare="compare_histories",

@@ -9,7 +9,7 @@ import synthetic_results
 import viscontact as vc
 from closeness import close_to
 from viscontact.drawing.content.given_pressure import pressure_panels
-from viscontact.drawing.content.leak import leak_map, leak_panels
+from viscontact.drawing.content.leak import leak_map, leak_panels, shown_leakage
 
 # Few cells are enough here.
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -65,3 +65,15 @@ def test_panels_show_rate_error_and_the_instant_of_closing() -> None:
     across, _ = leak_panels(leak, "y")
     assert [mark.text for mark in across.marks] == ["closed"]
     assert across.marks[0].place == 0.25
+
+
+def test_rate_of_a_result_is_that_of_its_leakage() -> None:
+    ds = synthetic_results.ellipse()
+    of_result = shown_leakage(ds, None, "y", "leak-rate")
+    found = vc.leakage(ds, viscosity=1.0, along="y")
+    np.testing.assert_array_equal(of_result.transmissivity, found.transmissivity)
+    last = float(found.time[-1])
+    assert shown_leakage(ds, [last], "y", "leak-rate").time.values.tolist() == [last]
+    assert shown_leakage(found, [last], "y", "leak-rate").time.values.tolist() == [last]
+    with pytest.raises(ValueError, match="along must be"):
+        shown_leakage(ds, None, "z", "leak-rate")

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.along_run import steps_grow
 from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Panel
-from viscontact.results.leakage.leakage import fields_of, instant_leakage
+from viscontact.results.leakage.leakage import fields_of, instant_leakage, leakage
+from viscontact.results.leakage.of_case import leakage_settings
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
@@ -65,6 +66,30 @@ def leak_map(results: xr.Dataset, times: ArrayLike | None, along: str, figure: s
         f"{axis.place(float(stored[index]))}, flow along {along}",
         *(grid.x, grid.y, found.touched, np.where(flow > 0, flow, np.nan), gap, place, note),
     )
+
+
+def shown_leakage(
+    results: xr.Dataset, times: ArrayLike | None, along: str, figure: str
+) -> xr.Dataset:
+    """Leakage of a result, or as given, at the instants or speeds nearest to some; all if None."""
+    if along not in ("x", "y"):
+        raise ValueError(f"{figure}: along must be 'x' or 'y', got {along!r}")
+    axis = run_axis(results)
+    is_found = "transmissivity" in results
+    stored = axis.values(results) if is_found else field_times(results, figure)
+    chosen = np.arange(stored.size)
+    if times is not None:
+        wanted = finite_array(f"{figure}: {axis.name}s", times, axis.unit).ravel()
+        if not wanted.size:
+            raise ValueError(f"{figure}: {axis.name}s must be finite numbers, got none")
+        chosen = np.unique([int(np.abs(stored - each).argmin()) for each in wanted])
+    if is_found:
+        return results.isel({axis.name: chosen})
+    settings = {"viscosity": 1.0, **leakage_settings(results)}
+    if settings.get("along") != "both":
+        settings["along"] = along
+    shown = results.isel({str(results["pressure"].dims[0]): chosen})
+    return leakage(shown, **settings)
 
 
 def leak_panels(leak: xr.Dataset, along: str) -> tuple[Panel, Panel]:

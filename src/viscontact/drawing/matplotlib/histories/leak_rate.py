@@ -7,22 +7,30 @@ from typing import Literal
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
+from numpy.typing import ArrayLike
 
-from viscontact.drawing.content.leak import leak_panels
+from viscontact.drawing.content.leak import leak_panels, shown_leakage
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def leak_rate(
-    leak: xr.Dataset, *, along: Literal["x", "y"] = "x", width: Width | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    along: Literal["x", "y"] = "x",
+    width: Width | None = None,
 ) -> Figure:
     """Draw how much leaks over time or speed, and the gap where the channel is narrowest.
 
     Parameters
     ----------
-    leak : xarray.Dataset
-        From `viscontact.leakage`.
+    results : xarray.Dataset
+        From `viscontact.leakage`; or from `viscontact.simulate` or `viscontact.open_results`, with
+        fields stored, whose leakage is computed for the fluid of its case, or without a fluid.
+    times : array_like, optional
+        Instants [s], or speeds [m/s]; the nearest ones are drawn. All by default.
     along : {"x", "y"}, optional
         Direction of the flow, if there are two.
     width : {"single", "double"} or float, optional
@@ -35,6 +43,11 @@ def leak_rate(
         difference was given; below it the critical, the effective and the mean gap. A dashed line
         is where the contact closes, from which on nothing leaks.
 
+    Raises
+    ------
+    ValueError
+        If no fields are stored, or an argument is invalid.
+
     Examples
     --------
     >>> import viscontact as vc
@@ -45,6 +58,7 @@ def leak_rate(
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['Leak rate [mm³/s]', 'Gap [µm]']
     """
+    leak = shown_leakage(results, times, along, "leak-rate")
     panels = leak_panels(leak, along)
     wide = page_width(width, style.ONE_COLUMN)
     figure = style.new_figure(wide, 1.15 * wide)
