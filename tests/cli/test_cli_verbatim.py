@@ -129,6 +129,8 @@ COMMANDS: tuple[tuple[list[str], int], ...] = (
     (["compare", NAME, f"{NAME}-"], 2),
     (["report", f"{NAME}-"], 2),
     (["heat", f"{NAME}-", "--cooling", "10 W/m2/K", "--ambient", "20 degC", "--area", "1 m2"], 2),
+    (["leakage", f"{NAME}-", "--viscosity", "1 mPa s", "--pressure-difference", "1 bar"], 2),
+    (["theory", f"{NAME}-.csv", "--material", NAME, "--pressure", "1 MPa"], 2),
     (["demo", NAME], 2),
     (["example", NAME], 2),
     (["example", "sphere-maxwell", "-o", f"{NAME}-e.yaml"], 0),

@@ -119,7 +119,8 @@ class PressureFormula(GivenPressure):
         if not np.isfinite(whole).all():
             raise ValueError(
                 f"pressure(x, y) must be finite, got {whole[~np.isfinite(whole)][0]} at "
-                f"t = {time:g} s; a formula with an edge needs np.where or np.maximum"
+                f"t = {format_quantity(time, 's')}; a formula with an edge needs np.where or "
+                "np.maximum"
             )
         return whole
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.tables.names import Data
+from viscontact.units.formatting import format_quantity
 from viscontact.units.temperatures import in_celsius
 
 # Chambers keep a temperature within some tenths of a kelvin; tests change it by several.
@@ -181,7 +182,7 @@ class Table:
         back = np.flatnonzero(np.diff(self["time"]) <= 0)
         if 0 < back.size < count - 1:
             row = int(back[0])
-            before, after = (f"{self['time'][at]:.6g} s" for at in (row, row + 1))
+            before, after = (format_quantity(self["time"][at], "s") for at in (row, row + 1))
             raise ValueError(
                 f"{self.source.name}:{self.lines[row + 1]}: time goes from {before} back to "
                 f"{after}, and goes on from one temperature to the next elsewhere; correct the "

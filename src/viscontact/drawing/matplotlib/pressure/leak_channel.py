@@ -61,7 +61,7 @@ def leak_channel(
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
     >>> panel, scale = leak_channel(ds).axes
     >>> panel.get_xlabel(), scale.get_ylabel()
-    ('x [mm]', 'Flow over the largest [-]')
+    ('x [µm]', 'Flow over the largest [-]')
     """
     shown = leak_map(results, times, along, _NAME)
     extents = [float(np.ptp(each)) for each in (shown.x, shown.y)]
