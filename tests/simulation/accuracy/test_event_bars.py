@@ -104,7 +104,7 @@ def coarser(spacing, ends, *, divides_steps=False):
     """Coarser run of which only the ends of the segments are known [s]."""
     none = np.zeros(0)
     flags = none.astype(bool)
-    kinds = (none, flags, none, none, none, none, np.zeros((0, 2), bool))
+    kinds = (none, flags, none, none, none, none, none, np.zeros((0, 2), bool))
     return CoarserResult(spacing, divides_steps, {}, *kinds, is_sharp=False, segment_ends=ends)
 
 

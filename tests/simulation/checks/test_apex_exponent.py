@@ -43,6 +43,13 @@ def test_crest_of_a_wave_and_a_rounded_cone_are_smooth() -> None:
         assert apex_exponent(gap, GRID, MIDDLE) == 2.0
 
 
+@pytest.mark.parametrize("crown", [0.0, 0.01])
+@pytest.mark.parametrize("start", [-0.5, 0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 2.5])
+def test_rounded_edge_of_a_flat_body_is_no_apex(start: float, crown: float) -> None:
+    flat = np.maximum(GRID.x + start, 0.0)[:, None] ** 2 * np.ones(21)
+    assert apex_exponent(flat + crown * GRID.x[:, None] ** 2, GRID, MIDDLE) == 2.0
+
+
 def test_exponent_is_unknown_at_the_border_of_the_grid_and_at_the_end_of_a_body() -> None:
     along_y = apex_exponent(power(1.3, (-8.0, 0.0)), GRID, (2, 10))
     assert along_y == close_to(1.3, rel=1e-9)

@@ -41,6 +41,8 @@ class CoarserResult:
     #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
     #: cause, over the mean pressure [-].
     bend_growth: Floats
+    #: The same by the bend within the cells next to the peak.
+    near_bend_growth: Floats
     spots: Floats  # mean width of the contact spots, in cells of the original run
     peak_drops: Floats  # relative drop of pressure from the largest one to the cells next to it
     #: Exponents of the gap around the largest pressure, see `apex_exponent` [-].
@@ -61,6 +63,7 @@ class CoarserResult:
             end_pressures=self.end_pressures[known],
             at_end=self.at_end[known],
             bend_growth=self.bend_growth[known],
+            near_bend_growth=self.near_bend_growth[known],
             spots=self.spots[known],
             peak_drops=self.peak_drops[known],
             apex_exponents=self.apex_exponents[known],
@@ -79,7 +82,7 @@ class ObservedStates:
         self._states: list[ContactState] = []
         self._ends: list[tuple[float, float]] = []
         self._at_end: list[bool] = []
-        self._bends: list[float] = []
+        self._bends: list[tuple[float, float]] = []
         self._spots: list[float] = []
         self._drops: list[float] = []
         self._exponents: list[float] = []
@@ -87,7 +90,7 @@ class ObservedStates:
         self._peak, self._is_sharp = 0.0, False
         # The largest pressure stays in a few cells: exponents, bends and angles of the body there.
         self._exponents_at: dict[tuple[int, int], float] = {}
-        self._bends_at: dict[tuple[int, int], float] = {}
+        self._bends_at: dict[tuple[int, int], tuple[float, float]] = {}
         self._angles_at: dict[tuple[float, float], float] = {}
 
     def add(self, state: ContactState) -> None:
@@ -106,13 +109,15 @@ class ObservedStates:
 
     def result(self, *, divides_steps: bool) -> CoarserResult:
         """Result of the run after its last state."""
+        bends = np.array(self._bends, dtype=float).reshape(-1, 2)
         return CoarserResult(
             self._spacing,
             divides_steps,
             history_of(self._states),
             np.array(self._ends, dtype=float).reshape(-1, 2),
             np.array(self._at_end, dtype=bool),
-            np.array(self._bends, dtype=float),
+            bends[:, 0],
+            bends[:, 1],
             self._spacing * np.array(self._spots, dtype=float),
             np.array(self._drops, dtype=float),
             np.array(self._exponents, dtype=float),
@@ -126,10 +131,12 @@ class ObservedStates:
         i, j = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
         cell = int(i), int(j)
         if cell not in self._bends_at:
-            self._bends_at[cell] = bend_at(run.open_gap, run.grid, cell)
+            around, near = (bend_at(run.open_gap, run.grid, cell, reach) for reach in (2, 1))
+            self._bends_at[cell] = around, near
             self._exponents_at[cell] = apex_exponent(run.open_gap, run.grid, cell)
         strain = 2 * np.pi * float(run.problem.compliance(state.time)) * state.mean_pressure
-        self._bends.append(self._bends_at[cell] / strain if strain > 0 else 0.0)
+        around, near = self._bends_at[cell]
+        self._bends.append((around / strain, near / strain) if strain > 0 else (0.0, 0.0))
         self._exponents.append(self._exponents_at[cell])
 
     def _peaks_at_point(self, state: ContactState) -> bool:

@@ -121,7 +121,8 @@ def error_bars_from(
         for name in ERROR_MODELS
         if name in history
     }
-    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(run, kinds, history))
+    least_peak = least_peak_bar(run, kinds, history)
+    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak)
     values["mean_pressure"] = _mean_pressure_bar(history, values)
     left_out = run.mesh is not None and "peak" in run.mesh.warnings
     values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
@@ -146,7 +147,7 @@ def error_bars_from(
                 values[name][where] = 0.0
     peaks = values["peak_pressure"]
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
-    warnings += coarse_peak_warnings(peaks, history, kinds.steep)
+    warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
     return ErrorBars(values, warnings, event_errors(run, ends))
 
@@ -161,10 +162,10 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     creeping = creeps(run.problem.surface.creep, times)
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
     singular = moving_maximum(unbounded_peak(history, results)) > 0
-    drops, exponents = beside_peak(times, results)
+    drops, exponents, bends = beside_peak(times, results)
     rises = rises_to_ends(times, results)
     divided = any(each.divides_steps for each in results)
-    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, divided)
+    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, bends, divided)
 
 
 def unknown_bars(history: History) -> ErrorBars:

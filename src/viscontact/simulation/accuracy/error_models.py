@@ -80,6 +80,9 @@ _LINE_LOAD = ErrorModel(
 
 _EXTENT = ErrorModel(2.0, 1.0, steep=ErrorModel(1.0, 0.6), of_neighbours=0.7)
 
+#: Ends of the segments of a load program.
+INSTANTS = ErrorModel(2.0, 1.6)
+
 #: Scalars of a moving contact: of first order in steps longer than the retardation times, of
 #: second order else. Calibrated on starts, reciprocations and steps of parts of cells.
 _RESISTANCE, _LOSS = ErrorModel(1.5, 1.0), ErrorModel(1.5, 1.5)

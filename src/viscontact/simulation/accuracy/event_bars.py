@@ -7,7 +7,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import MixedHistory
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
-from viscontact.simulation.accuracy.error_models import ERROR_MODELS
+from viscontact.simulation.accuracy.error_models import INSTANTS
 from viscontact.simulation.accuracy.least_bars import TINY
 from viscontact.simulation.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
 from viscontact.simulation.transient.provenance import event_attributes
@@ -15,7 +15,7 @@ from viscontact.simulation.transient.setup import RunSetup
 
 
 def segment_end_errors(run: RunSetup, results: list[CoarserResult]) -> Floats:
-    """Errors of the ends of a program's segments from coarser runs, modelled as the approach [s].
+    """Errors of the ends of a program's segments from coarser runs [s].
 
     NaN where coarser runs end them in another way; empty for other loads.
     """
@@ -33,7 +33,7 @@ def segment_end_errors(run: RunSetup, results: list[CoarserResult]) -> Floats:
     levels = RefinementLevels((1.0, *(each.spacing for each in grids)), rows, by_steps)
     methods = run.problem.solver_error + max(plan.error for plan in run.plans)
     methods += run.problem.surface.splitting_error + run.problem.compliance.inversion_error
-    return np.asarray(ERROR_MODELS["approach"].of(levels) + levels.by_steps + methods * own)
+    return np.asarray(INSTANTS.of(levels) + levels.by_steps + methods * own)
 
 
 def with_least_errors(
@@ -65,7 +65,7 @@ def widen_after_events(
     values: dict[str, Floats], run: RunSetup, history: History, errors: Floats
 ) -> None:
     """Add the error of the instant at which a segment began, times the rate of each scalar."""
-    # Coarser runs are compared at equal times after it.
+    # Coarser runs are compared at equal times after it; at it, the body may already move on.
     load, times = run.problem.load, history["time"]
     if not isinstance(load, MixedHistory):
         return
@@ -77,7 +77,7 @@ def widen_after_events(
         for name in values:
             rates = np.abs(np.diff(history[name][at]) / np.diff(times[at]))
             fastest = np.fmax(np.append(rates, 0.0), np.append(0.0, rates))
-            values[name][at[1:]] += error * np.nan_to_num(fastest[1:])
+            values[name][at] += error * np.nan_to_num(fastest)
 
 
 def set_bars_at_events(values: dict[str, Floats], run: RunSetup, history: History) -> None:

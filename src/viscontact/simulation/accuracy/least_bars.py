@@ -103,6 +103,13 @@ LEAST_PEAK_ERROR, SMOOTH_DROP = 0.14, 0.2
 APEX_EXPONENTS = (1.0, 1.14, 1.19, 1.29, 1.44, 1.57, 1.7, 1.83, 1.92, 2.0)
 APEX_ERRORS = (6.0, 5.6, 5.0, 4.0, 2.0, 1.1, 0.62, 0.4, 0.29, 0.0)
 
+#: Where a body is rounded within a cell of the rim, the cells take the rounding for a sharp end:
+#: pressure grows as the inverse square root of the distance to it, down to the width of the
+#: rounding that is in contact. This is, in cells, so much times (sqrt(a/h)/b)^(2/3) with the half
+#: width a of the contact, cells of length h and the growth b that the bend can cause; 0.3 to 0.35
+#: on faces of 1 mm rounded by 1 to 8 mm. Peaks are too small by 1 - sqrt(w/1.1) for w cells.
+ROUNDING_WIDTH, RESOLVED_ROUNDING = 0.33, 1.1
+
 #: Most by which a crest between cells, a parabola, is higher than the largest cell, in the drop
 #: from there to the cells next to it. Without a rim, nothing else may show on coarser grids.
 CREST_BETWEEN_CELLS = 1 / 8
@@ -127,6 +134,7 @@ class ContactKinds:
     rises: Bools
     drops: Floats  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
     exponents: Floats  # of the gap around the peak, see `apex_exponent`; NaN if unknown
+    bends: Floats  # growth of the peak that the body's bend there can cause; NaN if unknown
     divided: bool  # a third run has divided the steps that the others take as the run does
 
     @property
@@ -166,9 +174,19 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floa
     relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
     apex = np.interp(np.nan_to_num(kinds.exponents, nan=2.0), APEX_EXPONENTS, APEX_ERRORS)
     relative = np.fmax(relative, apex * drops)
+    relative = np.fmax(relative, np.where(kinds.steep, _coarse_rounding(kinds, history), 0.0))
     has_no_rim = np.isinf(cells_across(run, history))
     relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
     return np.asarray(relative * history["peak_pressure"])
+
+
+def _coarse_rounding(kinds: ContactKinds, history: History) -> Floats:
+    """Relative error of a peak at a rounding that takes less than a cell of the contact [-]."""
+    across, bends = history["cells_across"], np.nan_to_num(kinds.bends)
+    narrow = bends > 0
+    quotient = np.sqrt(across / 2) / np.where(narrow, bends, 1.0)
+    width = np.where(narrow, ROUNDING_WIDTH * quotient ** (2 / 3), np.inf)
+    return np.asarray(1 - np.sqrt(np.minimum(width / RESOLVED_ROUNDING, 1.0)))
 
 
 def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Floats:

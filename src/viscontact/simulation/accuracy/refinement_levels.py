@@ -93,19 +93,20 @@ def spots_across(times: Floats, results: list[CoarserResult]) -> Floats:
     return spots
 
 
-def beside_peak(times: Floats, results: list[CoarserResult]) -> tuple[Floats, Floats]:
-    """Largest drops beside the peak on the finest coarser grid, and apex exponents there.
+def beside_peak(times: Floats, results: list[CoarserResult]) -> tuple[Floats, Floats, Floats]:
+    """Largest drops beside the peak on the finest coarser grid, apex exponents, and bends there.
 
-    Both are NaN where they are not known.
+    All are NaN where they are not known. The bends are those within the cells of the run.
     """
-    drops, exponents = np.full((2, len(times)), np.nan)
+    drops, exponents, bends = np.full((3, len(times)), np.nan)
     grids = [each for each in results if not each.divides_steps]
     if grids:
         finest = min(grids, key=lambda each: each.spacing)
         theirs = finest.scalars["time"]
         shared, known = np.isin(times, theirs), np.isin(theirs, times)
         drops[shared], exponents[shared] = finest.peak_drops[known], finest.apex_exponents[known]
-    return moving_maximum(drops), -moving_maximum(-exponents)
+        bends[shared] = finest.near_bend_growth[known] / finest.spacing
+    return moving_maximum(drops), -moving_maximum(-exponents), moving_maximum(bends)
 
 
 def aligned(name: str, times: Floats, result: CoarserResult) -> Floats:

@@ -56,7 +56,8 @@ SINGULAR = (
     "error is given as infinite; resultants converge"
 )
 
-#: Error of a finite peak over the peak that is warned of, where it is half of the run's largest.
+#: Least error of a finite peak by the body's shape, over the peak, that is warned of where the peak
+#: is half of the run's largest.
 COARSE_PEAK_ERROR = 0.2
 
 
@@ -83,14 +84,15 @@ def singular_warnings(
     return (f"{SINGULAR}; {rounding_remedy(indenter)}",)
 
 
-def coarse_peak_warnings(bars: Floats, history: History, steep: Bools) -> tuple[str, ...]:
-    """Warning of a finite peak near an edge or a tip that takes few cells, by the largest part."""
+def coarse_peak_warnings(bars: Floats, least: Floats, history: History) -> tuple[str, ...]:
+    """Warning of finite peaks whose least bars, by the shape beside them, are large."""
     peaks = history["peak_pressure"]
-    counts = steep & np.isfinite(bars) & (peaks >= np.max(peaks) / 2) & (peaks > 0)
-    parts = np.where(counts, bars / _positive(peaks), 0.0)
-    worst = int(np.argmax(parts))
-    if parts[worst] <= COARSE_PEAK_ERROR:
+    counts = np.isfinite(bars) & (peaks >= np.max(peaks) / 2) & (peaks > 0)
+    coarse = counts & (least > COARSE_PEAK_ERROR * peaks)
+    if not coarse.any():
         return ()
+    parts = np.where(coarse, bars / _positive(peaks), 0.0)
+    worst = int(np.argmax(parts))
     return (
         f"the peak pressure is known to {parts[worst]:.0%} only, at "
         f"{format_quantity(history['time'][worst], 's')}: it is next to an edge or a tip of the "

@@ -28,6 +28,11 @@ MIN_ANGLE = 0.06
 #: body counts as smooth: 4 where it is, at most 2 at an apex beside a centre.
 SMOOTH_DEVIATION = 3.0
 
+#: Exponent of a gap less the part of its bend on one side that the other side has: at most 1.26 at
+#: an apex up to 0.6 cells beside a centre, where both sides bend; at least 1.5 at the parabolic
+#: edge of a flat body, where one does.
+ONE_SIDED = 1.35
+
 
 @dataclass(frozen=True, eq=False)
 class EndCells:
@@ -50,12 +55,12 @@ def cells_at_end(open_gap: Floats) -> EndCells:
     return EndCells(beside, ~near)
 
 
-def bend_at(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float:
-    """Largest change of the gap's slope from cell to cell, around a cell [rad]."""
+def bend_at(open_gap: Floats, grid: Grid, place: tuple[int, int], reach: int = 2) -> float:
+    """Largest change of the gap's slope from cell to cell, up to `reach` cells from one [rad]."""
     # A corner of the angle alpha raises the pressure by E* alpha/(2 pi) whenever the cells shrink
     # by a factor e, whatever its shape within a cell is (Johnson 1985, Contact Mechanics, section
     # 5.2).
-    lines = [np.arange(middle - 2, middle + 3) for middle in place]
+    lines = [np.arange(middle - reach, middle + reach + 1) for middle in place]
     lines = [
         line % count if repeats else line[(line >= 0) & (line < count)]
         for line, count, repeats in zip(lines, grid.shape, grid.periodic, strict=True)
@@ -81,7 +86,10 @@ def apex_exponent(open_gap: Floats, grid: Grid, place: tuple[int, int]) -> float
             continue
         inner, outer = np.log2([far / near, farther / far]).tolist()
         # A smooth body deviates from r^2 with the square of the distance, an apex does near by.
-        if 2 - outer < SMOOTH_DEVIATION * (2 - inner):
+        is_smooth = 2 - outer >= SMOOTH_DEVIATION * (2 - inner)
+        bends = line[middle] - 2 * line[cells[1]] + line[cells[2]]
+        is_edge = bends.min() < (outer - ONE_SIDED) * bends.max()
+        if not is_smooth and not is_edge:
             exponents.append(outer)
     return max(min(exponents), 1.0)
 
