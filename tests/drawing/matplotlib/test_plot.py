@@ -77,7 +77,7 @@ LONG = {"history", "pressure-map", "pressure-profile"}
     "name",
     [
         name if name in LONG else pytest.param(name, marks=pytest.mark.slow)
-        for name in sorted(set(FIGURES) - {"pressure-radial", "exact"})
+        for name in sorted(set(FIGURES) - {"pressure-radial", "exact", "leak-channel"})
     ],
 )
 def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> None:
