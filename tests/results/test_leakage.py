@@ -287,3 +287,11 @@ def test_error_of_a_rough_contact_covers_that_of_finer_cells(seed: int, pressure
         assert abs(float(each.transmissivity) - exact) < float(each.transmissivity_error)
     assert abs(float(found[1].transmissivity) / exact - 1) < 0.06
     assert float(found[1].critical_gap) == close_to(float(found[2].critical_gap), rel=0.05)
+
+
+def test_fluid_that_pushes_the_bodies_apart_is_warned_of_on_a_single_row_of_cells() -> None:
+    ds = result(np.full((1, 8), 1e-6), (1e-3, 1e-3)).assign(force=("time", [1.0]))  # 1 MPa
+    leak = vc.leakage(ds, viscosity=1e-3, pressure_difference=1e5, along="y")
+    assert "carries a part of the load" in leak.attrs["warnings"]
+    leak = vc.leakage(ds, viscosity=1e-3, pressure_difference=1e4, along="y")
+    assert "carries a part of the load" not in leak.attrs["warnings"]

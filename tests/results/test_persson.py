@@ -84,6 +84,21 @@ def test_friction_is_exact_at_full_contact(along: Any) -> None:
     assert abs(float(still.friction_coefficient[0])) < 1e-12 * exact
 
 
+def test_friction_of_a_single_wave_in_partial_contact_is_that_of_the_formula() -> None:
+    amplitude, speed, pressure, gamma = 1e-6, 1e-4, 2e5, 0.5
+    k, square = 2 * np.pi / LENGTH, amplitude**2 / 2
+    modulus = 1 / (5e-10 + 4.5e-9 / (1 + 1j * k * speed))
+    # Half of the wave counts where it comes into contact itself.
+    energy = k**2 * abs(modulus) ** 2 * square / (8 * pressure**2) / 2
+    share = erf(1 / (2 * math.sqrt(energy)))
+    upper = k**2 * share * modulus.imag * square / (2 * pressure)
+    found = persson_sliding(straight_waves(amplitude), RUBBER, pressure, speed, gamma=gamma)
+    assert 0.2 < share < 0.9
+    assert float(found.friction_coefficient_upper[0]) == close_to(upper, rel=1e-9)
+    reduced = (gamma + (1 - gamma) * share**2) * upper
+    assert float(found.friction_coefficient[0]) == close_to(reduced, rel=1e-9)
+
+
 def test_steady_contact_has_the_friction_of_the_theory_at_full_contact() -> None:
     surface = rough(48, 4)
     grid = vc.Grid((48, 48), (LENGTH, LENGTH), periodic=True)

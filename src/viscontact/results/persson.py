@@ -160,11 +160,11 @@ def persson_sliding(
     -----
     With E*(ω) = 2 G*(ω)/(1 - ν) at ω = k_y v and the mean square w of each wave,
 
-        G(q) = Σ_{|k|<q} |k|² |E*|² w/(8 σ²),   P = erf(1/(2 √G)),
+        G(q) = Σ_{|k|≤q} |k|² |E*|² w/(8 σ²),   P = erf(1/(2 √G)),
         μ = Σ |k| k_y S P Im E* w/(2 σ),
 
-    exact at full contact, where P = 1. In partial contact the theory has the order of the friction
-    and the place of its maximum, not the number.
+    where waves of |k| = q count by half; exact at full contact, where P = 1. In partial contact the
+    theory has the order of the friction and the place of its maximum, not the number.
 
     References
     ----------

@@ -57,7 +57,7 @@ def _rectangle(cells: int) -> tuple[Comparison, ...]:
 
 
 def _hertz(cells: int) -> tuple[Comparison, ...]:
-    """Hertz's pressure as a formula: the parabola that it presses, and the peak below it."""
+    """Hertz's pressure as a formula: the parabola that it presses."""
     a = 1e-3
 
     def pressure(x: Floats, y: Floats) -> Floats:

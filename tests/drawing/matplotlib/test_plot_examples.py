@@ -44,8 +44,7 @@ def test_figures_of_an_example_are_drawn_without_a_warning(
     over_time = {figure for figure, said in refused.items() if "shows a run over time" in said}
     assert set(refused) - over_time <= _NOT_ALWAYS
     assert ("speed" in results.dims) == bool(over_time)
-    # The flow that a figure draws is refused by its own name.
-    assert all(said.startswith((f"{figure}: ", "leakage: ")) for figure, said in refused.items())
+    assert all(said.startswith(f"{figure}: ") for figure, said in refused.items())
 
 
 def _refusal(figure: str, results: xr.Dataset) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,9 +51,10 @@ def leak_map(results: xr.Dataset, times: ArrayLike | None, along: str, figure: s
     if wanted.size != 1:
         raise ValueError(f"{figure}: shows one {axis.row}, got {wanted.size}")
     index = int(np.abs(stored - wanted[0]).argmin())
-    found = instant_leakage(results, index, along, None)
-    critical, i, j = found.critical
-    grid, fields = found.grid, fields_of(found)
+    with _named(figure):
+        found = instant_leakage(results, index, along, None)
+        critical, i, j = found.critical
+        grid, fields = found.grid, fields_of(found)
     flow = np.hypot(fields["flux_x"], fields["flux_y"])
     place = None if not critical else (float(grid.x[i]), float(grid.y[j]))
     note = "closed: no channel leads through"
@@ -89,7 +92,17 @@ def shown_leakage(
     if settings.get("along") != "both":
         settings["along"] = along
     shown = results.isel({str(results["pressure"].dims[0]): chosen})
-    return leakage(shown, **settings)
+    with _named(figure):
+        return leakage(shown, **settings)
+
+
+@contextmanager
+def _named(figure: str) -> Iterator[None]:
+    """Give refusals of the flow the name of the figure that asks for it."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{figure}: {str(error).removeprefix('leakage: ')}") from None
 
 
 def leak_panels(leak: xr.Dataset, along: str) -> tuple[Panel, Panel]:

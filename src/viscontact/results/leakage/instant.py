@@ -11,7 +11,13 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.leakage.channels import FlowAxis, channel, critical_constriction
 from viscontact.results.leakage.effective_medium import effective_transmissivity
-from viscontact.results.leakage.flow import ChannelFlow, harmonic, of_mean_gap, solved_flow
+from viscontact.results.leakage.flow import (
+    ChannelFlow,
+    FaceMean,
+    harmonic,
+    of_mean_gap,
+    solved_flow,
+)
 
 #: Multiple of the tolerance of a run, over the scatter of its gap, below which a gap is noise.
 NOISE = 10.0
@@ -58,7 +64,7 @@ class InstantLeakage:
         """Flow by the harmonic mean at faces; None if closed."""
         return self._solved(harmonic) if self.percolates else None
 
-    def _solved(self, mean: object) -> ChannelFlow:
+    def _solved(self, mean: FaceMean) -> ChannelFlow:
         count = int(self.cells.sum())
         if count > MOST_UNKNOWNS:
             raise ValueError(
@@ -71,7 +77,6 @@ class InstantLeakage:
                 "leakage: the channel leads beyond the end of the body, where the gap is infinite "
                 "or unknown; give a grid within the body"
             )
-        assert callable(mean)
         return solved_flow(self.gap, self.cells, self.flow, self.grid.cell_size, mean)
 
     @property

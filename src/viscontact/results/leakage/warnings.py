@@ -1,12 +1,12 @@
-"""Where the leakage of a contact is not to be relied on."""
+"""Warnings of a leakage: a channel of few cells, a fluid that pushes, gaps of few molecules."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
 import xarray as xr
 
+from viscontact.results.recorded_case import recorded_grid
 from viscontact.units.formatting import format_quantity
 
 #: Relative error of T beyond which only its order is known.
@@ -48,9 +48,7 @@ def _size(error: float) -> str:
 def _push(ds: xr.Dataset, pressure_difference: float | None) -> Iterator[str]:
     if pressure_difference is None or "force" not in ds:
         return
-    x, y = ds["x"].values, ds["y"].values
-    cells = [each.size * float(each[1] - each[0]) if each.size > 1 else np.nan for each in (x, y)]
-    nominal = float(ds["force"].max()) / (cells[0] * cells[1])
+    nominal = float(ds["force"].max()) / recorded_grid(ds).area
     if nominal > 0 and pressure_difference > PUSH * nominal:
         yield (
             f"the pressure difference, {format_quantity(pressure_difference, 'Pa')}, is more than "
