@@ -39,7 +39,7 @@ body = vc.Material(vc.Elastic.from_uniaxial(modulus * (1 - 0.49**2), 0.49), pois
 grid = vc.Grid((count, count), (period, period), periodic=True)
 loads = np.linspace(0.01, 0.26, 26)  # mean pressure over E* times the slope
 load = vc.ForceHistory(np.arange(26.0), loads * modulus * slope * grid.area)
-surface = vc.Surface(height, period / count)
+surface = vc.surfaces.indenter_of(vc.Surface(height, period / count, periodic=True))
 # Eight cells on the shortest wave: the peaks of pressure, which are not used here, need more.
 warnings.filterwarnings("ignore", "between neighbouring points of the grid", vc.AccuracyWarning)
 ds = vc.simulate(surface, body, load, grid, np.arange(26.0), errors=False)

@@ -336,7 +336,9 @@ def test_a_coating_on_a_creeping_body_has_times_of_its_creep_and_bars_of_its_ste
     body = vc.Layered([vc.Layer(0.2e-3, vc.Material(vc.Elastic(10 * SHEAR), 0.35))], RUBBER)
     grid, tight = vc.Grid((24, 24), (4e-3, 4e-3)), vc.log_times(1e-3, 5.0, 60)
     fine = vc.simulate(BALL, body, vc.step(1.0), grid, tight, errors=False)
-    ds = vc.simulate(BALL, body, vc.step(1.0), grid, vc.log_times(0.05, 5.0, 10))
+    # The coating carries the ball at the rim, where the pressure rises within two cells.
+    with pytest.warns(vc.AccuracyWarning, match="rim of a stiff coating"):
+        ds = vc.simulate(BALL, body, vc.step(1.0), grid, vc.log_times(0.05, 5.0, 10))
     assert vc.simulate(BALL, body, vc.step(1.0), grid, errors=False).time.size > 20
     adaptive = vc.adaptive_times(5.0, tolerance=0.01)
     steps = vc.simulate(BALL, body, vc.step(1.0), grid, adaptive, errors=False)

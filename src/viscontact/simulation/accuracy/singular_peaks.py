@@ -95,8 +95,9 @@ def coarse_peak_warnings(bars: Floats, least: Floats, history: History) -> tuple
     worst = int(np.argmax(parts))
     return (
         f"the peak pressure is known to {parts[worst]:.0%} only, at "
-        f"{format_quantity(history['time'][worst], 's')}: it is next to an edge or a tip of the "
-        "body whose rounding takes few cells; use smaller cells if the peak matters",
+        f"{format_quantity(history['time'][worst], 's')}: the pressure rises to it within few "
+        "cells, as beside an edge or a tip of the body and at the rim of a stiff coating; use "
+        "smaller cells if the peak matters",
     )
 
 
