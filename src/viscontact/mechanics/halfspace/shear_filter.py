@@ -1,0 +1,197 @@
+"""Linear maps of traction to displacement along the surface, and approximate inverses.
+
+Both fields are pairs of components, of shape (2, nx, ny). In the spectrum a map is a symmetric
+matrix (xx, xy, yy) of real numbers for each wave, as a kernel is even along both axes, or odd along
+both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from typing import Any, Self
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.transforms import (
+    Transforms,
+    fast_length,
+    fastest_transforms,
+    transforms_by,
+)
+from viscontact.mechanics.halfspace.shear_influence import ShearTables
+
+#: Entries xx, xy and yy of a symmetric matrix.
+Entries = tuple[Numbers, Numbers, Numbers]
+
+
+class ShearFilter:
+    """Pairs of fields whose spectra are those of given pairs times a symmetric matrix."""
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        lengths: tuple[int, int],
+        symbol: Entries,
+        *,
+        single: bool = False,
+        transforms: Transforms | None = None,
+    ) -> None:
+        self.shape, self._lengths = shape, lengths
+        self._transforms = transforms or transforms_by(fastest_transforms())
+        self._number = np.dtype(np.float32 if single else np.float64)
+        self._symbol = tuple(part.astype(self._number) for part in symbol)
+
+    def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
+        """Weighted sum of filters on the same block, in the precision of this one."""
+        total = copy(self)
+        pairs = list(zip(weights, parts, strict=True))
+        total._symbol = tuple(
+            np.asarray(sum(weight * part._symbol[entry] for weight, part in pairs)).astype(
+                self._number
+            )
+            for entry in range(3)
+        )
+        return total
+
+    def in_single(self) -> Self:
+        """The same filter in single precision."""
+        same = copy(self)
+        same._number = np.dtype(np.float32)
+        same._symbol = tuple(part.astype(np.float32) for part in self._symbol)
+        return same
+
+    def apply(self, fields: Numbers) -> Numbers:
+        """The pair of fields of another pair, in the precision of the filter."""
+        nx, ny = self.shape
+        along, across = self._lengths
+        # In single precision, with its few exponents, fields are transformed at order one.
+        size = float(np.abs(fields).max(initial=0.0)) or 1.0
+        padded = np.zeros((2, nx, across), self._number)
+        np.divide(fields, size, out=padded[..., :ny], casting="same_kind")
+        kind = np.result_type(self._number, np.complex64)
+        lines = np.zeros((2, nx, across // 2 + 1), kind)
+        spectrum = np.zeros((2, along, across // 2 + 1), kind)
+        spectrum[:, :nx] = self._transforms.real_forward(padded, lines, 2)
+        spectrum = self._transforms.complex_forward(spectrum, 1)
+        xx, xy, yy = self._symbol
+        x, y = spectrum
+        spectrum = np.stack([xx * x + xy * y, xy * x + yy * y])
+        lines = np.ascontiguousarray(self._transforms.complex_inverse(spectrum, 1)[:, :nx])
+        found = self._transforms.real_inverse(lines, padded, 2)[..., :ny]
+        return np.asarray(found * self._number.type(size))
+
+
+def shear_convolution(tables: ShearTables, periodic: tuple[bool, bool], **options: Any) -> Parts:
+    """Displacement per unit compliance [Pa m] on a block of cells, linear but along a period."""
+    shape = tables.direct.shape
+    nx, ny = (
+        count if repeats else fast_length(2 * count - 1)
+        for count, repeats in zip(shape, periodic, strict=True)
+    )
+    nothing = np.zeros((nx, ny // 2 + 1))
+    direct = _spectrum(tables.direct, (nx, ny), 1)
+    along_x = _spectrum(tables.along_x, (nx, ny), 1)
+    cross = _spectrum(tables.cross, (nx, ny), -1)
+    poisson = along_x, cross, direct - along_x
+    return _parts((shape[0], shape[1]), (nx, ny), (direct, nothing, direct), poisson, options)
+
+
+def periodic_shear_convolution(
+    shape: tuple[int, int], cell_size: tuple[float, float], **options: Any
+) -> Parts:
+    """Displacement per unit compliance from the mean plane, of a load periodic along both axes."""
+    # A wave of traction along its wave vector moves the surface by 2/|k|, across it by 1 + κ times
+    # as much: Johnson (1985), section 13.2, for a half-plane and for antiplane strain.
+    x, y, length = _wave_numbers(shape, cell_size)
+    length[0, 0] = np.inf  # the mean plane is at rest
+    direct = 2 / length
+    across = direct * (y / length) ** 2
+    cross = -direct * _odd(x * y / length**2, shape)
+    nothing = np.zeros(direct.shape)
+    poisson = across, cross, direct - across
+    return _parts(shape, shape, (direct, nothing, direct), poisson, options)
+
+
+def shear_preconditioner(
+    shape: tuple[int, int], cell_size: tuple[float, float], kappa: float, **options: Any
+) -> ShearFilter:
+    """Approximate inverse of the displacement of a block, taken as a period [1/m]."""
+    # The inverse symbol |k|/2 (l l^T + t t^T/(1 + κ)) of waves along l and across t.
+    x, y, length = _wave_numbers(shape, cell_size)
+    half = length / 2
+    # The mean of a block is a wave of about the longest length in it, not of none.
+    least = min([*half[0, 1:2], *half[1:2, 0]])
+    safe = np.where(length > 0, length, 1.0)
+    lost = kappa / (1 + kappa)
+    xx = half * (1 - lost * (y / safe) ** 2)
+    yy = half * (1 - lost * (x / safe) ** 2)
+    xy = lost * half * _odd(x * y / safe**2, shape)
+    xx[0, 0] = yy[0, 0] = least / (1 + kappa)
+    return ShearFilter(shape, shape, (xx, xy, yy), single=True, **options)
+
+
+class Parts:
+    """Parts of a surface's response to shear: that of 1/r, and that by Poisson's ratio."""
+
+    def __init__(self, direct: ShearFilter, poisson: ShearFilter) -> None:
+        self._both = direct, poisson
+
+    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> ShearFilter:
+        """Operator of given weights of both parts."""
+        found = self._both[0].sum_of(self._both, (direct, poisson))
+        return found.in_single() if single else found
+
+
+def _parts(
+    shape: tuple[int, int],
+    lengths: tuple[int, int],
+    direct: Entries,
+    poisson: Entries,
+    options: dict[str, Any],
+) -> Parts:
+    both = (ShearFilter(shape, lengths, symbol, **options) for symbol in (direct, poisson))
+    return Parts(*both)
+
+
+def _spectrum(table: Floats, lengths: tuple[int, int], sign: int) -> Floats:
+    """Spectrum of a kernel that is even (1) or odd (-1) along both axes."""
+    kernel = table
+    for axis, length in enumerate(lengths):
+        kernel = _wrapped(kernel, axis, length, sign)
+    return np.ascontiguousarray(np.fft.rfft2(kernel).real)
+
+
+def _wrapped(table: Floats, axis: int, length: int, sign: int) -> Floats:
+    """Kernel at the offsets 0, 1, ... (-2, -1) of a transform; in a period it is as it is."""
+    cells = table.shape[axis]
+    if length == cells:
+        return table
+    shape = list(table.shape)
+    shape[axis] = length
+    kernel = np.zeros(shape)
+    lines, given = np.moveaxis(kernel, axis, 0), np.moveaxis(table, axis, 0)
+    lines[:cells] = given
+    if cells > 1:
+        lines[1 - cells :] = sign * given[:0:-1]
+    return kernel
+
+
+def _wave_numbers(
+    shape: tuple[int, int], cell_size: tuple[float, float]
+) -> tuple[Floats, Floats, Floats]:
+    """Wave numbers along x and y, and their lengths, in the order of the transform [1/m]."""
+    x = 2 * np.pi * np.fft.fftfreq(shape[0], cell_size[0])[:, None]
+    y = 2 * np.pi * np.fft.rfftfreq(shape[1], cell_size[1])[None, :]
+    return x, y, np.asarray(np.hypot(x, y))
+
+
+def _odd(values: Floats, shape: tuple[int, int]) -> Floats:
+    """Factors that are odd along both axes: none at the shortest waves, which have no sign."""
+    nx, ny = shape
+    if nx % 2 == 0:
+        values[nx // 2] = 0.0
+    if ny % 2 == 0:
+        values[:, ny // 2] = 0.0
+    return values
