@@ -1,0 +1,1 @@
+"""Frictional equilibrium of one time step: tractions along the surface, within what slips."""

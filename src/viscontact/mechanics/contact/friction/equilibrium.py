@@ -1,0 +1,97 @@
+"""Frictional equilibrium of one time step, by Newton's method on the discs |q| <= μ p.
+
+1. The rigid motion by least squares, the slip w under it, and the residual of the friction law.
+2. Free directions: both in cells that stick, the tangent in those that slip. A cell on its circle
+   whose slip has the direction of its traction is released.
+3. Newton's step on the free directions, where the curvature of the circle adds λ/(μ p) along the
+   tangents. The matrix is symmetric and positive: conjugate gradients (`newton_step`).
+4. Tractions are cut off at the discs, and their resultants restored.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.contact.friction.discs import balanced, on_circle
+from viscontact.mechanics.contact.friction.newton_step import newton_step
+from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
+from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_residual
+
+#: Newton's steps of one solve.
+VERB=0
+MAX_STEPS = 60
+
+#: Part by which a Newton step is shortened where it makes the residual larger, and how often.
+SHORTER, MOST_HALVINGS = 0.3, 8
+
+#: Growth of the residual at which a step is shortened.
+WORSE = 2.0
+
+#: Imbalance of a solution over the force that friction carries.
+IMBALANCE = 1e-9
+
+
+def solve_slip(
+    problem: SlipProblem, block: ShearBlock, start: Floats, *, tolerance: float
+) -> SlipSolution:
+    """Solve for traction and rigid motion from a given traction; see the module.
+
+    ``converged`` is False if the residual or the balances are not met, as where the prescribed
+    forces exceed what friction carries.
+    """
+    shift = block.shift
+    slips = on_circle(start, problem.bound)
+    traction = balanced(start, problem.bound, shift, problem.constraints, slips)
+    found = _judged(problem, block, traction)
+    iterations, convolutions = 0, 1
+    for _ in range(MAX_STEPS):
+        if found.error <= tolerance:
+            break
+        step, motion, slips, spent = newton_step(problem, block, traction, found, tolerance)
+        iterations += spent
+        convolutions += spent + 1
+        part = 1.0
+        for halving in range(MOST_HALVINGS + 1):
+            trial = balanced(
+                traction + part * step, problem.bound, shift, problem.constraints, slips
+            )
+            judged = _judged(problem, block, trial, found.motion + part * motion)
+            convolutions += halving > 0
+            if judged.error < found.error or judged.objective <= found.objective:
+                break
+            part *= SHORTER
+        traction, found = trial, judged
+        if VERB: print(_, "%.2e"%found.error, "gap %.1e"%found.duality_gap, spent, part, found.directions.slips.sum(), found.objective)
+    return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
+
+
+def _judged(
+    problem: SlipProblem, block: ShearBlock, traction: Floats, motion: Floats | None = None
+) -> SlipResidual:
+    """Residual of a traction by a fresh convolution, near a motion."""
+    return slip_residual(problem, block.shift, traction, block.convolution.apply(traction), motion)
+
+
+def _solution(
+    problem: SlipProblem,
+    block: ShearBlock,
+    traction: Floats,
+    found: SlipResidual,
+    spent: tuple[int, int],
+    tolerance: float,
+) -> SlipSolution:
+    carried = float(problem.bound.sum()) * block.shift.cell_area
+    resultants = block.shift.resultants(traction)
+    meets = carried == 0 or problem.constraints.imbalance(resultants, carried) <= IMBALANCE
+    slips = found.directions.slips
+    return SlipSolution(
+        traction,
+        found.motion,
+        found.slip * slips,
+        np.where(slips, 2, found.directions.sticks.astype(np.intp)),
+        found.error,
+        found.duality_gap,
+        *spent,
+        converged=found.error <= tolerance and meets,
+    )

@@ -1,0 +1,197 @@
+"""Newton's step on the discs: a linear system on the free directions, by conjugate gradients."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats, Singles
+from viscontact.mechanics.contact.friction.problem import (
+    Directions,
+    ShearBlock,
+    SlipProblem,
+    turned,
+)
+from viscontact.mechanics.contact.friction.residual import SlipResidual
+from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
+
+#: Part of the residual that the conjugate gradients leave.
+FORCING = 3e-2
+
+#: Search directions of one step.
+MAX_DIRECTIONS = 120
+
+#: Displacement of a cell by its own unit traction, over the cell's edge [-].
+OWN = 1.1
+
+
+@dataclass(frozen=True, eq=False)
+class NewtonSystem:
+    """Matrix T + diagonal on the free directions, over compliance and the edge of a cell."""
+
+    problem: SlipProblem
+    block: ShearBlock
+    directions: Directions
+
+    @cached_property
+    def unit(self) -> float:
+        """Displacement per traction that the system counts in [m/Pa]."""
+        return self.problem.compliance * self.block.edge
+
+    @cached_property
+    def normal(self) -> Singles:
+        """Directions that are not free in cells that slip."""
+        return self.directions.normal.astype(np.float32)
+
+    @cached_property
+    def held(self) -> Bools:
+        """Cells under pressure."""
+        return self.directions.sticks | self.directions.slips
+
+    @cached_property
+    def entry(self) -> Singles:
+        """Compliance of cells that enter [-]."""
+        return (self.problem.entry / self.unit).astype(np.float32)
+
+    @cached_property
+    def curvature(self) -> Singles:
+        """λ/(μ p) of cells that slip [-]."""
+        bound, directions = self.problem.bound, self.directions
+        ratio = np.divide(
+            directions.pull, bound * self.unit, out=np.zeros(bound.shape), where=directions.slips
+        )
+        return ratio.astype(np.float32)
+
+    @cached_property
+    def _diagonal(self) -> Singles:
+        """Mean of the diagonal over the free directions of a cell [-]."""
+        xx, xy, yy = self.entry
+        x, y = self.normal
+        tangent = yy * x * x - 2 * xy * x * y + xx * y * y + self.curvature
+        return np.where(self.directions.slips, tangent, (xx + yy) / 2)
+
+    @cached_property
+    def _share(self) -> Singles:
+        """Root of the part of the half-space in the diagonal of each cell [-]."""
+        return (1 / np.sqrt(1 + self._diagonal / OWN)).astype(np.float32)
+
+    @cached_property
+    def _local(self) -> Singles:
+        """Inverse of the diagonal times the part that is not the half-space's [-]."""
+        return ((1 - self._share**2) / (self._diagonal + np.float32(OWN))).astype(np.float32)
+
+    def projected(self, fields: Singles) -> Singles:
+        """Components along free directions."""
+        x, y = self.normal
+        along = x * fields[0] + y * fields[1]
+        return np.asarray((fields - self.normal * along) * self.held)
+
+    def apply(self, step: Singles) -> Singles:
+        """The matrix times a step along free directions [-]."""
+        return self.without_curvature(step) + self.curvature * step
+
+    def without_curvature(self, step: Singles) -> Singles:
+        """Slip along free directions by a change of the traction [-]."""
+        found = self.block.search.apply(step) / np.float32(self.block.edge)
+        x, y = step
+        xx, xy, yy = self.entry
+        found[0] += xx * x + xy * y
+        found[1] += xy * x + yy * y
+        return self.projected(found)
+
+    def preconditioned(self, residual: Singles) -> Singles:
+        """Approximate inverse: of the half-space where it is soft, of the diagonal elsewhere."""
+        filtered = self.block.preconditioner.apply(self._share * residual)
+        found = self._share * filtered * np.float32(self.block.edge) + self._local * residual
+        return self.projected(found)
+
+
+class ConstrainedSteps:
+    """Preconditioner of the system under the constraint of the resultants.
+
+    Conjugate gradients with M^-1 r less the motions' M^-1 E that restore the resultants stay on the
+    constraint (N. Gould, M. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376).
+    """
+
+    def __init__(self, system: NewtonSystem) -> None:
+        self._system, self._shift = system, system.block.shift
+        constraints = system.problem.constraints
+        #: A rotation counts as a shift at the arm.
+        self._scales = np.array([1.0, 1.0, 1 / constraints.arm])
+        self._motions = [
+            system.preconditioned(system.projected(self._shift.field(unit).astype(np.float32)))
+            for unit in np.diag(self._scales)
+        ]
+        gram = np.array([self._resultants(motion) for motion in self._motions])
+        self._inverse = pseudo_inverse((gram + gram.T) / 2, constraints.free, 1.0)
+
+    def _resultants(self, fields: Singles) -> Floats:
+        return self._shift.resultants(fields) * self._scales
+
+    def restoring(self, lacking: Floats) -> Singles:
+        """Step with given resultants [N, N, N m]."""
+        return self._moved(self._inverse @ (lacking * self._scales))
+
+    def preconditioned(self, residual: Singles) -> tuple[Singles, Floats]:
+        """Step without resultants for a residual, and the motion that is taken out of it."""
+        step = self._system.preconditioned(residual)
+        motion = self._inverse @ self._resultants(step)
+        return step - self._moved(motion), motion * self._scales
+
+    def _moved(self, coefficients: Floats) -> Singles:
+        pairs = zip(coefficients.astype(np.float32), self._motions, strict=True)
+        return np.asarray(sum(coefficient * motion for coefficient, motion in pairs))
+
+
+def newton_step(
+    problem: SlipProblem,
+    block: ShearBlock,
+    traction: Floats,
+    found: SlipResidual,
+    tolerance: float,
+) -> tuple[Floats, Floats, Bools, int]:
+    """Changes of traction [Pa] and motion, cells taken to slip, and number of search directions."""
+    own = OWN * problem.compliance * block.edge + (problem.entry[0] + problem.entry[2]) / 2
+    there, directions = turned(problem, traction, found.slip, found.directions, own)
+    system = NewtonSystem(problem, block, directions)
+    # Projected in double precision: most of the slip is along the traction.
+    target = directions.projected(found.slip) / -system.unit
+    largest = float(np.abs(target).max()) or 1.0
+    residual = (target / largest).astype(np.float32)
+    steps = ConstrainedSteps(system)
+    # Turned cells and resultants first, of which conjugate gradients change nothing.
+    lacking = problem.constraints.lacking(block.shift.resultants(there))
+    step = steps.restoring(lacking / largest)
+    change = ((there - traction) / largest).astype(np.float32)
+    if step.any() or change.any():
+        residual = residual - system.apply(step) - system.without_curvature(change)
+    conjugate, motion = steps.preconditioned(residual)
+    first = energy = _dot(residual, conjugate)
+    direction = conjugate
+    least = max(FORCING, min(0.3, tolerance / max(found.error, 1e-300)))
+    iterations = 0
+    while iterations < MAX_DIRECTIONS and (
+        energy > least**2 * first or _largest_left(steps, residual, motion) > least
+    ):
+        image = system.apply(direction)
+        ratio = np.float32(energy / _dot(direction, image))
+        step = step + ratio * direction
+        residual = residual - ratio * image
+        conjugate, motion = steps.preconditioned(residual)
+        before, energy = energy, _dot(residual, conjugate)
+        direction = conjugate + np.float32(energy / before) * direction
+        iterations += 1
+    # In double precision, as cells that slip must not leave their circles by rounding.
+    found_step = directions.projected(step * float(largest)) + (there - traction)
+    return found_step, -motion * (largest * system.unit), directions.slips, iterations
+
+
+def _largest_left(steps, residual, motion):
+    s = steps._system
+    return float(np.abs(residual - s.projected(s.block.shift.field(motion).astype(np.float32))).max())
+
+
+def _dot(one: Singles, other: Singles) -> float:
+    return float(np.einsum("kij,kij->", one, other, dtype=np.float64))
