@@ -24,10 +24,10 @@ MOST_ROUNDS = 60
 BALANCED = 1e-13
 
 
-def clipped(traction: Floats, bound: Floats) -> Floats:
-    """Nearest tractions on the discs."""
+def clipped(traction: Floats, bound: Floats, held: Bools | bool = False) -> Floats:
+    """Nearest tractions on the discs; on their circles in cells that are held there."""
     size = np.hypot(*traction)
-    outside = size > bound
+    outside = (size > bound) | (held & (size > 0))
     factor = np.divide(bound, size, out=np.ones(size.shape), where=outside)
     return np.asarray(traction * factor)
 
@@ -46,23 +46,29 @@ def balanced(
 ) -> Floats:
     """Nearest tractions on the discs with the prescribed resultants; at best nearly so.
 
-    Cells that slip stay on their circles, unless the others cannot restore the resultants.
+    Cells that slip do not change, or else stay on their circles, if that restores the resultants.
     """
     found = clipped(traction, bound)
     if not constraints.free.any():
         return found
     most = BALANCED * float(bound.sum()) * shift.cell_area
-    for weight in (np.where(slips, 0.0, bound), bound):
-        found, off = _nearest(traction, bound, weight, shift, constraints, most)
+    nowhere = np.zeros(slips.shape, bool)
+    for weight, held in (
+        (np.where(slips, 0.0, bound), slips),
+        (bound, slips),
+        (bound, nowhere),
+    ):
+        found, off = _nearest(traction, bound, weight, held, shift, constraints, most)
         if off <= most:
             break
     return found
 
 
-def _nearest(  # noqa: PLR0913, PLR0917
+def _nearest(
     traction: Floats,
     bound: Floats,
     weight: Floats,
+    held: Bools,
     shift: RigidShift,
     constraints: ShiftConstraints,
     most: float,
@@ -70,17 +76,17 @@ def _nearest(  # noqa: PLR0913, PLR0917
     """Nearest tractions by distances over the weights, and what the resultants lack [N]."""
     # They are those of q + weight (rigid motion), cut off at the circles. The motion solves a
     # concave problem of three numbers by Newton's method, with shorter steps where that is no gain.
-    motion, found = np.zeros(3), clipped(traction, bound)
+    motion, found = np.zeros(3), clipped(traction, bound, held)
     off = _off(found, shift, constraints)
     for _ in range(MOST_ROUNDS):
         if off <= most:
             break
         beyond = traction + weight * shift.field(motion)
-        gram = shift.gram(*_slopes(beyond, bound, weight)) * shift.cell_area
+        gram = shift.gram(*_slopes(beyond, bound, weight, held)) * shift.cell_area
         inverse = pseudo_inverse(gram, constraints.free, constraints.arm)
         step = inverse @ constraints.lacking(shift.resultants(found))
         for _ in range(MOST_HALVINGS):
-            trial = clipped(traction + weight * shift.field(motion + step), bound)
+            trial = clipped(traction + weight * shift.field(motion + step), bound, held)
             remaining = _off(trial, shift, constraints)
             if remaining < off:
                 break
@@ -97,10 +103,12 @@ def _off(traction: Floats, shift: RigidShift, constraints: ShiftConstraints) -> 
     return float(np.linalg.norm(constraints.lacking(shift.resultants(traction)) / arms))
 
 
-def _slopes(beyond: Floats, bound: Floats, weight: Floats) -> tuple[Floats, Floats, Floats]:
+def _slopes(
+    beyond: Floats, bound: Floats, weight: Floats, held: Bools
+) -> tuple[Floats, Floats, Floats]:
     """Change of cut off tractions with a rigid motion: entries xx, xy and yy for each cell."""
     size = np.hypot(*beyond)
-    outside = size > bound
+    outside = (size > bound) | (held & (size > 0))
     # Beyond the circle only the tangent is left, shortened.
     share = np.divide(bound, size, out=np.ones(size.shape), where=outside)
     x, y = np.divide(beyond, size, out=np.zeros(beyond.shape), where=outside)

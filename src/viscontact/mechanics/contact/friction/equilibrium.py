@@ -19,7 +19,6 @@ from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProble
 from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_residual
 
 #: Newton's steps of one solve.
-VERB=0
 MAX_STEPS = 60
 
 #: Part by which a Newton step is shortened where it makes the residual larger, and how often.
@@ -62,7 +61,6 @@ def solve_slip(
                 break
             part *= SHORTER
         traction, found = trial, judged
-        if VERB: print(_, "%.2e"%found.error, "gap %.1e"%found.duality_gap, spent, part, found.directions.slips.sum(), found.objective)
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
 
 

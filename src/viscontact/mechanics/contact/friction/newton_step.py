@@ -190,7 +190,9 @@ def newton_step(
 
 def _largest_left(steps, residual, motion):
     s = steps._system
-    return float(np.abs(residual - s.projected(s.block.shift.field(motion).astype(np.float32))).max())
+    return float(
+        np.abs(residual - s.projected(s.block.shift.field(motion).astype(np.float32))).max()
+    )
 
 
 def _dot(one: Singles, other: Singles) -> float:
