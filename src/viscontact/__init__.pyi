@@ -14,6 +14,7 @@ from . import verify as verify
 from .backend.errors import AccuracyWarning as AccuracyWarning
 from .backend.errors import ConvergenceError as ConvergenceError
 from .backend.errors import DomainError as DomainError
+from .bodies.friction import Friction as Friction
 from .bodies.grid import AutomaticGrid as AutomaticGrid
 from .bodies.grid import Grid as Grid
 from .bodies.indenters import Chamfer as Chamfer
@@ -64,12 +65,17 @@ from .bodies.loads import LoadHistory as LoadHistory
 from .bodies.loads import LoadProgram as LoadProgram
 from .bodies.loads import MixedHistory as MixedHistory
 from .bodies.loads import Segment as Segment
+from .bodies.loads import TangentialHarmonic as TangentialHarmonic
+from .bodies.loads import TangentialHistory as TangentialHistory
 from .bodies.loads import TemperatureHistory as TemperatureHistory
 from .bodies.loads import Travel as Travel
 from .bodies.loads import harmonic as harmonic
 from .bodies.loads import ramp as ramp
 from .bodies.loads import reciprocating as reciprocating
 from .bodies.loads import step as step
+from .bodies.loads import tangential_harmonic as tangential_harmonic
+from .bodies.loads import tangential_ramp as tangential_ramp
+from .bodies.loads import tangential_step as tangential_step
 from .bodies.loads import triangle as triangle
 from .bodies.materials.cards import Card as Card
 from .bodies.materials.cards import read_abaqus as read_abaqus

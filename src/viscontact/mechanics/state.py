@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.bodies.grid import Grid
 
 
@@ -34,8 +34,12 @@ MOTION = "motion"
 #: Scalars that only states under a temperature or with ageing have.
 OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter", "thickening")
 
-#: Fields of a state over the cells.
+#: Part of a state that only contacts under friction have.
+FRICTION = "friction"
+
+#: Fields of a state over the cells, and those of a contact under friction.
 FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
+FRICTION_FIELDS = ("traction_x", "traction_y", "slip_x", "slip_y", "slip_state", "friction_work")
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +128,36 @@ class ContactState:
     thickening : float or None
         Growth of the thickness of all layers by thermal expansion, which closes the gap as an
         approach does [m]; None without layers that expand.
+    traction_x, traction_y : ndarray or None, shape (nx, ny)
+        Traction of the body on the half-space along the surface [Pa]. This and all that follow are
+        None without friction.
+    slip_x, slip_y : ndarray or None, shape (nx, ny)
+        Slip of the surface under the body since the contact of the cell [m].
+    slip_state : ndarray of int or None, shape (nx, ny)
+        0 where the bodies are apart, 1 where they stick, 2 where they slip.
+    friction_work : ndarray or None, shape (nx, ny)
+        Work of friction per area since the start [J/m²].
+    tangential_force_x, tangential_force_y : float or None
+        Integrals of the tractions [N].
+    torque : float or None
+        Their torque about the axis, from x to y; NaN on a periodic grid [N m].
+    tangential_displacement_x, tangential_displacement_y : float or None
+        Rigid shift of the body against the half-space far below; NaN where the approach is [m].
+    rotation : float or None
+        Rotation of the body about its axis, from x to y [rad].
+    stick_area : float or None
+        Area of the cells that stick [m²].
+    slip_fraction : float or None
+        Part of the cells in contact that slip [-].
+    friction_heat : float or None
+        Heat of friction since the start [J].
+    friction_power : float or None
+        Heat of the step over its duration; NaN at a jump [W].
+    tangential_stiffness_x, tangential_stiffness_y : float or None
+        Change of the force over that of the shift in the step; NaN at rest [N/m].
+    duality_gap : float or None
+        Bound of the energy of the error of the tractions, over the work of all friction on the
+        largest displacement [-].
 
     Examples
     --------
@@ -175,6 +209,25 @@ class ContactState:
     reduced_time: float | None = None
     reduced_time_indenter: float | None = None
     thickening: float | None = None
+    traction_x: Floats | None = None
+    traction_y: Floats | None = None
+    slip_x: Floats | None = None
+    slip_y: Floats | None = None
+    slip_state: Integers | None = None
+    friction_work: Floats | None = None
+    tangential_force_x: float | None = None
+    tangential_force_y: float | None = None
+    torque: float | None = None
+    tangential_displacement_x: float | None = None
+    tangential_displacement_y: float | None = None
+    rotation: float | None = None
+    stick_area: float | None = None
+    slip_fraction: float | None = None
+    friction_heat: float | None = None
+    friction_power: float | None = None
+    tangential_stiffness_x: float | None = None
+    tangential_stiffness_y: float | None = None
+    duality_gap: float | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:
@@ -190,7 +243,13 @@ class ContactState:
     def parts(self) -> frozenset[str]:
         """Parts of its scalars that only some states have."""
         moving = {MOTION} if self.moving or self.speed is not None else set()
-        return frozenset(moving.union(n for n in OF_CLOCKS if getattr(self, n) is not None))
+        gripping = set() if self.traction_x is None else {FRICTION}
+        return frozenset(moving | gripping | {n for n in OF_CLOCKS if getattr(self, n) is not None})
+
+    @property
+    def field_names(self) -> tuple[str, ...]:
+        """Names of its fields over the cells."""
+        return FIELD_NAMES if self.traction_x is None else (*FIELD_NAMES, *FRICTION_FIELDS)
 
     def with_own_fields(self) -> ContactState:
         """Return the same state, whose fields are no parts of larger arrays of the run.
@@ -199,7 +258,7 @@ class ContactState:
         beside other fields, which it would keep as well.
         """
         own: dict[str, Any] = {}
-        for name in FIELD_NAMES:
+        for name in self.field_names:
             field = getattr(self, name)
             own[name] = field if field.base is None else field.copy()
         return replace(self, **own)
@@ -207,6 +266,6 @@ class ContactState:
     def without_fields(self) -> ContactState:
         """Return the same state with empty fields, to save memory in long runs."""
         nothing: dict[str, Any] = {
-            name: np.empty((0, 0), getattr(self, name).dtype) for name in FIELD_NAMES
+            name: np.empty((0, 0), getattr(self, name).dtype) for name in self.field_names
         }
         return replace(self, **nothing, line_load=np.empty(0))

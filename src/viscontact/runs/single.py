@@ -9,10 +9,12 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
@@ -42,6 +44,8 @@ def simulate(  # noqa: PLR0913
     errors: bool = True,
     motion: Motion | None = None,
     temperature: TemperatureHistory | float | None = None,
+    friction: Friction | float | None = None,
+    tangential: TangentialLoad | None = None,
 ) -> xr.Dataset:
     """Simulate an indenter pressed on a creeping half-space, and return its contact over time.
 
@@ -84,6 +88,11 @@ def simulate(  # noqa: PLR0913
         Temperature of the bodies over time, or a constant one [K]. Laws hold at the reference
         temperatures of the shifts of their materials, and creep on the clocks that these make of
         the time; when left out, laws are used as they are.
+    friction : Friction or float, optional
+        Friction between the bodies, or its coefficient; it needs a tangential load. The bodies are
+        frictionless when left out.
+    tangential : TangentialHistory or TangentialHarmonic, optional
+        Load along the surface: forces and a torque, or shifts and a rotation.
 
     Returns
     -------
@@ -139,6 +148,8 @@ def simulate(  # noqa: PLR0913
         fields=fields,
         motion=motion,
         temperature=temperature,
+        friction=friction,
+        tangential=tangential,
     )
     problem = carried_out(problem, threads)
     if text := unusual_radius(indenter):

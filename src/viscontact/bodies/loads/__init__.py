@@ -9,6 +9,14 @@ from viscontact.bodies.loads.mixed import MixedHistory
 from viscontact.bodies.loads.program import Condition, LoadProgram, Segment
 from viscontact.bodies.loads.reciprocation import Reciprocation, reciprocating
 from viscontact.bodies.loads.standard import ramp, step, triangle
+from viscontact.bodies.loads.tangential import (
+    TangentialHarmonic,
+    TangentialHistory,
+    TangentialLoad,
+    tangential_harmonic,
+    tangential_ramp,
+    tangential_step,
+)
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.loads.travel import Travel
 
@@ -24,11 +32,17 @@ __all__ = [
     "MixedHistory",
     "Reciprocation",
     "Segment",
+    "TangentialHarmonic",
+    "TangentialHistory",
+    "TangentialLoad",
     "TemperatureHistory",
     "Travel",
     "harmonic",
     "ramp",
     "reciprocating",
     "step",
+    "tangential_harmonic",
+    "tangential_ramp",
+    "tangential_step",
     "triangle",
 ]

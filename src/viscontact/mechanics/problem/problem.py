@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Law
@@ -18,6 +19,7 @@ from viscontact.bodies.loads.clock import TIME, Clock, ReducedTime
 from viscontact.bodies.loads.largest_load import largest_load
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered, at_temperature, materials_of
@@ -36,7 +38,7 @@ from viscontact.mechanics.problem.surface import (
     surface_of,
     together,
 )
-from viscontact.mechanics.state import MOTION, OF_CLOCKS
+from viscontact.mechanics.state import FRICTION, MOTION, OF_CLOCKS
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, TimeStep, plan_steps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
@@ -107,6 +109,8 @@ class Problem:
     step_ratio: float = 1.0  # longest step, relative to the longest one that the load allows [-]
     motion: Motion = STANDING
     temperature: TemperatureHistory | None = None  # of all bodies; None: that of their laws
+    friction: Friction | None = None
+    tangential: TangentialLoad | None = None  # along the surface, under friction
 
     def __post_init__(self) -> None:
         if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
@@ -120,6 +124,8 @@ class Problem:
             ("indenter_material", (Material, Layered), True),
             ("motion", (Motion,), False),
             ("temperature", (TemperatureHistory,), True),
+            ("friction", (Friction,), True),
+            ("tangential", (TangentialLoad,), True),
         ):
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
@@ -197,7 +203,8 @@ class Problem:
     def parts(self) -> frozenset[str]:
         """Parts of the scalars of its states that only some problems have."""
         moving = () if self.motion.stands else (MOTION,)
-        return frozenset([*moving, *self.clock_scalars(0.0)])
+        gripping = () if self.friction is None else (FRICTION,)
+        return frozenset([*moving, *gripping, *self.clock_scalars(0.0)])
 
     def clock_scalars(self, time: float) -> dict[str, float]:
         """Temperature [K], reduced times [s] and thickening [m], by their names in the result."""
@@ -250,8 +257,9 @@ class Problem:
 
     @cached_property
     def history(self) -> LoadHistory:
-        """The load on the contact, of a moving body with the kinks and cycles of its path."""
-        return self.motion.history_under(self.contact_load)
+        """The load on the contact, with the kinks of a path and of a tangential load."""
+        load = self.motion.history_under(self.contact_load)
+        return load if self.tangential is None else self.tangential.history_under(load)
 
     @cached_property
     def instants(self) -> Floats:
@@ -265,7 +273,8 @@ class Problem:
                 return self.times_at_cells(self.grid.cell_size)
             # Until the cells are known, those of one that is longer than any path.
             return self.times_at_cells((UNKNOWN_CELL, UNKNOWN_CELL))
-        return run_instants(self.times, self.kept.places, self.contact_load, creep)
+        load = self.contact_load if self.tangential is None else self.history
+        return run_instants(self.times, self.kept.places, load, creep)
 
     def times_at_cells(self, cell_size: tuple[float, float]) -> Floats:
         """Times of a moving contact at which the body has passed whole cells [s]."""

@@ -7,11 +7,13 @@ from typing import Any, NotRequired, TypedDict, Unpack
 
 from numpy.typing import ArrayLike
 
+from viscontact.bodies.friction import Friction, as_friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperature
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
@@ -33,12 +35,15 @@ class Arguments(TypedDict):
     fields: NotRequired[str | Sequence[float]]
     motion: NotRequired[Motion | None]
     temperature: NotRequired[TemperatureHistory | float | None]
+    friction: NotRequired[Friction | float | None]
+    tangential: NotRequired[TangentialLoad | None]
 
 
 def contact_problem(**given: Unpack[Arguments]) -> Problem:
     """Return the contact problem of arguments; what is left out has its default."""
     named: dict[str, Any] = {**given, "load": as_history(given["load"])}
     named["temperature"] = as_temperature(named.get("temperature"))
+    named["friction"] = as_friction(named.get("friction"))
     named["kept"] = KeptFields(named.pop("fields", "all"))
     if named.get("motion") is None:
         named["motion"] = STANDING

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
+from dataclasses import replace
 
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.backend.transforms import transforms_by
@@ -13,6 +14,7 @@ from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.transient.frictional_contact import frictional_contact
 from viscontact.simulation.transient.grid_enlargement import (
     FREE,
     GridEnlargement,
@@ -41,6 +43,7 @@ class March:
         self._stepper = Stepper(run, self._domain)
         self._steps = run.problem.steps(run.grid.cell_size)
         self._observer = Observer(run, warns=warns)
+        self._friction = frictional_contact(run)
         self.done, self.outcome = 0, Outcome.CONVERGED
         self._failure: str | None = None
         if restart_data is not None:
@@ -65,6 +68,7 @@ class March:
             "stepper": self._stepper.restart_data(),
             "steps": self._steps.restart_data(),
             "observer": self._observer.restart_data(),
+            "friction": self._friction.restart_data(),
             "patch": list(self._domain.kept_patch),
             "cells": list(self._run.grid.shape),
             "done": self.done,
@@ -74,6 +78,7 @@ class March:
         self._stepper.restore(restart_data["stepper"])
         self._steps.restore(restart_data["steps"])
         self._observer.restore(restart_data["observer"])
+        self._friction.restore(restart_data["friction"])
         first_row, last_row, first_column, last_column = restart_data["patch"]
         self._domain.keep_patch((first_row, last_row, first_column, last_column))
         self.done = restart_data["done"]
@@ -113,6 +118,7 @@ class March:
         enlargement = GridEnlargement(self._domain, domain_of(run))
         self._stepper.map_fields(run, enlargement)
         self._observer.map_fields(run, enlargement)
+        self._friction.map_fields(run, enlargement)
         self._run, self._domain = run, enlargement.large
 
     def _solved_step(self) -> ContactState | None:
@@ -127,6 +133,7 @@ class March:
         solution = self._stepper.accept(step, trial)
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
+        state = replace(state, **self._friction.advance(step, solution))
         _LOG.debug(
             "step to t = %.6g s: %d iterations, residual %.2g",
             *(step.time, solution.iterations, solution.residual),

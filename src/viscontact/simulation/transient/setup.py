@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from numbers import Integral
 
@@ -11,10 +12,13 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
+from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.shear_terms import shear_terms
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
+from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
 from viscontact.simulation.checks.motion import check_motion, check_path
 from viscontact.simulation.checks.periodicity import check_endless, check_period
 from viscontact.simulation.checks.problem_checks import (
@@ -55,6 +59,13 @@ class RunSetup:
         return (self.hereditary, *self.other_terms)
 
     @property
+    def shear_plans(self) -> tuple[HereditaryPlan, ...]:
+        """Methods of the hereditary integrals of tractions, of all terms under shear."""
+        terms = shear_terms(self.problem.bodies, self.problem.clocks)
+        numbers = 2 * self.open_gap.size
+        return tuple(_planned(self.problem, [term.compliance for term in terms], numbers))
+
+    @property
     def grows(self) -> bool:
         """True if the grid is automatic, and may be enlarged when the contact outgrows it."""
         return self.problem.automatic_grid is not None
@@ -93,6 +104,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
     check_motion(problem)
+    check_friction(problem)
     # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
@@ -118,6 +130,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_period(problem.indenter, open_gap, grid, problem.contact_load, supported=supported)
     check_balance(points[1:], open_gap, about_body)
     check_path(problem, grid)
+    check_grid_of_friction(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan, *others = plan_history(problem, open_gap, grid)
     transforms = fastest_transforms()
@@ -173,6 +186,15 @@ def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, boo
 
 def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[HereditaryPlan]:
     """Hereditary integrals for the terms of a problem's surface on a grid; open gap [m]."""
+    # Pressure and unit displacement are kept, of all cells that are computed.
+    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
+    return _planned(problem, [term.compliance for term in problem.surface.terms], numbers)
+
+
+def _planned(
+    problem: Problem, functions: Sequence[ContactCompliance], numbers: int
+) -> list[HereditaryPlan]:
+    """Hereditary integrals of creep functions over the steps, of so many numbers each."""
     if problem.adaptive is None:
         ends = step_ends(problem.planned_steps)
     else:
@@ -180,10 +202,7 @@ def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[Heredit
         end = problem.adaptive.end
         count = max(ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * problem.step_count))
         ends = np.append(0.0, np.geomspace(1e-9 * end, end, count))
-    # Pressure and unit displacement are kept, of all cells that are computed.
-    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
-    terms = problem.surface.terms
-    plans = [plan_hereditary_integral(term.compliance, ends, numbers) for term in terms]
+    plans = [plan_hereditary_integral(compliance, ends, numbers) for compliance in functions]
     if problem.adaptive is None:
         return plans
     return [replace(plan, instants=np.zeros(0)) for plan in plans]

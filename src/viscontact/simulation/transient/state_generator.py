@@ -9,10 +9,12 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
@@ -43,6 +45,8 @@ def march(  # noqa: PLR0913
     progress: Progress | bool | None = None,
     motion: Motion | None = None,
     temperature: TemperatureHistory | float | None = None,
+    friction: Friction | float | None = None,
+    tangential: TangentialLoad | None = None,
 ) -> Iterator[ContactState]:
     """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
 
@@ -81,6 +85,11 @@ def march(  # noqa: PLR0913
         Temperature of the bodies over time, or a constant one [K]. Laws hold at the reference
         temperatures of the shifts of their materials, and creep on the clocks that these make of
         the time; when left out, laws are used as they are.
+    friction : Friction or float, optional
+        Friction between the bodies, or its coefficient; it needs a tangential load. The bodies are
+        frictionless when left out.
+    tangential : TangentialHistory or TangentialHarmonic, optional
+        Load along the surface: forces and a torque, or shifts and a rotation.
 
     Returns
     -------
@@ -129,6 +138,8 @@ def march(  # noqa: PLR0913
         fields=fields,
         motion=motion,
         temperature=temperature,
+        friction=friction,
+        tangential=tangential,
     )
     run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)

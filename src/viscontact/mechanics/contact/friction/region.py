@@ -1,0 +1,115 @@
+"""Region of a grid that tractions act on, with its operators."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools
+from viscontact.backend.transforms import Transforms
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.contact.friction.problem import ShearBlock
+from viscontact.mechanics.contact.friction.rigid_shift import RigidShift
+from viscontact.mechanics.halfspace.shear_filter import (
+    Parts,
+    periodic_shear_convolution,
+    shear_convolution,
+    shear_preconditioner,
+)
+from viscontact.mechanics.halfspace.shear_influence import shear_tables
+
+#: Cells around a contact, and numbers of cells that extents are a multiple of, so that a contact
+#: that grows slowly keeps its region.
+MARGIN, MULTIPLE = 1, 8
+
+
+@dataclass(frozen=True)
+class Region:
+    """Rows and columns of a grid."""
+
+    rows: tuple[int, int]
+    columns: tuple[int, int]
+
+    @property
+    def cut(self) -> tuple[slice, slice]:
+        """Index of its part of a field."""
+        return slice(*self.rows), slice(*self.columns)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of rows and columns."""
+        return self.rows[1] - self.rows[0], self.columns[1] - self.columns[0]
+
+
+class ShearDomain:
+    """Half-spaces under shear on a grid, with operators on regions, which are kept."""
+
+    def __init__(self, grid: Grid, transforms: Transforms) -> None:
+        self.grid, self._transforms = grid, transforms
+        self._parts: dict[tuple[int, int], Parts] = {}
+        self._blocks: dict[tuple[Region, float], ShearBlock] = {}
+
+    def region_of(self, cells: Bools) -> Region:
+        """Region that holds cells, all of the grid along its periods."""
+        spans = [
+            (0, count) if repeats else _span(np.any(cells, axis=1 - axis))
+            for axis, (count, repeats) in enumerate(
+                zip(self.grid.shape, self.grid.periodic, strict=True)
+            )
+        ]
+        return Region(*spans)
+
+    def parts(self, region: Region) -> Parts:
+        """Parts of the response on a region."""
+        if region.shape not in self._parts:
+            self._parts = {region.shape: self._made(region.shape)}
+        return self._parts[region.shape]
+
+    def block(self, region: Region, kappa: float) -> ShearBlock:
+        """Operators on a region, of the response K + κ (its second part)."""
+        key = region, kappa
+        if key not in self._blocks:
+            parts, cell_size = self.parts(region), self.grid.cell_size
+            self._blocks = {
+                key: ShearBlock(
+                    parts.sum_of(1.0, kappa),
+                    parts.sum_of(1.0, kappa, single=True),
+                    shear_preconditioner(
+                        region.shape, cell_size, kappa, transforms=self._transforms
+                    ),
+                    self.shift(region),
+                    max(cell_size) if min(self.grid.shape) > 1 else min(cell_size),
+                )
+            }
+        return self._blocks[key]
+
+    def shift(self, region: Region) -> RigidShift:
+        """Rigid motions over a region, about the origin."""
+        rows, columns = region.cut
+        x, y = self.grid.x[rows, None], self.grid.y[None, columns]
+        return RigidShift(x, y, self.grid.cell_area)
+
+    def _made(self, shape: tuple[int, int]) -> Parts:
+        grid, options = self.grid, {"transforms": self._transforms}
+        if all(grid.periodic):
+            return periodic_shear_convolution(shape, grid.cell_size, **options)
+        if any(grid.periodic):
+            tables = shear_tables(grid).within(shape)
+        else:
+            size = (shape[0] * grid.cell_size[0], shape[1] * grid.cell_size[1])
+            tables = shear_tables(Grid(shape, size))
+        return shear_convolution(tables, (grid.periodic[0], grid.periodic[1]), **options)
+
+
+def _span(lines: Bools) -> tuple[int, int]:
+    """First and last lines around the occupied ones, a multiple of lines if there are as many."""
+    occupied, count = np.flatnonzero(lines), len(lines)
+    if not occupied.size:
+        return 0, min(MULTIPLE, count)
+    low = max(int(occupied[0]) - MARGIN, 0)
+    high = min(int(occupied[-1]) + 1 + MARGIN, count)
+    wanted = min(-(-(high - low) // MULTIPLE) * MULTIPLE, count)
+    low = max(low - (wanted - (high - low)) // 2, 0)
+    low = min(low, count - wanted)
+    return low, low + wanted

@@ -1,0 +1,120 @@
+"""Checks of friction and of the tangential load."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadHistory
+from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.shear_terms import is_uncoupled, shear_terms
+from viscontact.units.formatting import format_quantity
+
+#: Part of what friction carries from which on a body counts as sliding away.
+SLIDES = 1 - 1e-9
+
+#: Times within an interval at which curved loads are compared, and halvings in the search for the
+#: time of sliding.
+SAMPLES, HALVINGS = 16, 60
+
+
+def check_friction(problem: Problem) -> None:
+    """Refuse friction that cannot be computed, before the times of the run are needed."""
+    if problem.friction is None and problem.tangential is None:
+        return
+    if problem.friction is None:
+        raise ValueError(
+            "friction: a tangential load needs friction, got none; give a coefficient, as in "
+            "friction=0.3"
+        )
+    if problem.tangential is None:
+        raise ValueError(
+            "tangential: friction needs a tangential load, got none; give one, as in "
+            "tangential=vc.tangential_step(force_x=1.0)"
+        )
+    if not problem.motion.stands:
+        raise ValueError(
+            "friction: a body that moves over the surface is not supported under friction; leave "
+            "the motion or friction out"
+        )
+    shear_terms(problem.bodies, problem.clocks)
+    if problem.friction.coupling and not is_uncoupled(problem.bodies):
+        raise ValueError(
+            "friction: the materials of the bodies are not alike and not all of Poisson's ratio "
+            "0.5, so that pressure moves the surface along itself, which is not supported; give "
+            "Friction(coefficient, coupling=False) to neglect it"
+        )
+    check_grip(problem)
+
+
+def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
+    """Refuse a tangential load that a periodic grid has no meaning for."""
+    load = problem.tangential
+    if load is None or not any(grid.periodic):
+        return
+    points = [load.at(time, side=side) for time in load.kinks for side in ("left", "right")]
+    if any(point.forces[2] or point.motions[2] for point in points):
+        raise ValueError(
+            "tangential.torque: a body without end does not turn; leave torque and rotation out, "
+            "or give a grid without a period"
+        )
+    if not grid.has_datum and any(
+        motion is not None for point in points for motion in point.motions[:2]
+    ):
+        raise ValueError(
+            "tangential.displacement_x: a line contact has no point at rest that a displacement "
+            "counts from; prescribe forces"
+        )
+
+
+def check_grip(problem: Problem) -> None:
+    """Refuse forces beyond what friction carries, with the time at which the body slides away."""
+    load, tangential, friction = problem.contact_load, problem.tangential, problem.friction
+    assert tangential is not None and friction is not None  # checked by `check_friction`
+    if load.control != "force":
+        return
+    end = problem.end
+    times = np.unique([0.0, *problem.history.stops.tolist(), end])
+    for begin, stop in itertools.pairwise(times[times <= end].tolist()):
+        for time in np.linspace(begin, stop, SAMPLES + 1).tolist():
+            for side in ("left", "right") if time == stop else ("right",):
+                if _excess(load, tangential, friction.coefficient, time, side) > 0:
+                    _refuse(load, tangential, friction.coefficient, begin, time)
+    if _excess(load, tangential, friction.coefficient, end, "right") > 0:
+        _refuse(load, tangential, friction.coefficient, end, end)
+
+
+def _excess(
+    load: LoadHistory, tangential: TangentialLoad, coefficient: float, time: float, side: str
+) -> float:
+    """Tangential force beyond what friction carries at an instant [N]."""
+    along_x, along_y, _ = tangential.at(time, side=side).forces
+    force = math.hypot(along_x or 0.0, along_y or 0.0)
+    carried = coefficient * (load.at(time, side=side).force or 0.0)
+    return force - SLIDES * carried if force else 0.0
+
+
+def _refuse(
+    load: LoadHistory, tangential: TangentialLoad, coefficient: float, begin: float, time: float
+) -> None:
+    """Raise ValueError with the time of sliding, after `begin` and not after `time` [s]."""
+    low, high = begin, time
+    for _ in range(HALVINGS if high > low else 0):
+        middle = (low + high) / 2
+        if _excess(load, tangential, coefficient, middle, "right") > 0:
+            high = middle
+        else:
+            low = middle
+    along_x, along_y, _ = tangential.at(time).forces
+    force = math.hypot(along_x or 0.0, along_y or 0.0)
+    carried = coefficient * (load.at(time).force or 0.0)
+    raise ValueError(
+        f"tangential: the body slides away at t = {format_quantity(high, 's', 4)}: friction "
+        f"carries {format_quantity(carried, 'N', 4)} of the {format_quantity(force, 'N', 4)} that "
+        f"are reached at t = {format_quantity(time, 's', 4)}; give a smaller force, a larger "
+        "normal force or coefficient, or a displacement in place of the force"
+    )
