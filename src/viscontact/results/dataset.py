@@ -17,10 +17,10 @@ from viscontact.results.variables import (
     AXES,
     COORDINATES,
     ERRORS,
-    FIELDS,
     LINES,
     error_name,
     field_axis_attributes,
+    fields_of,
     scalar_attributes,
     scalars_of,
 )
@@ -71,7 +71,7 @@ def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict
             ),
             variable.attributes,
         )
-        for name, variable in FIELDS.items()
+        for name, variable in fields_of(states[0].parts).items()
     }
     arrays |= {
         name: (

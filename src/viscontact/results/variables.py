@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import MOTION, Outcome
+from viscontact.mechanics.state import FRICTION, MOTION, Outcome
 
 
 class Place(Flag):
@@ -98,6 +98,31 @@ FIELDS = {
     ),
 }
 
+#: Fields that only results of some parts have, as those under friction.
+FIELDS |= {
+    f"traction_{axis}": Variable(
+        "Pa", f"traction of the body on the half-space along {axis}", of=FRICTION, beyond=0.0
+    )
+    for axis in "xy"
+}
+FIELDS |= {
+    f"slip_{axis}": Variable(
+        "m", f"slip of the surface under the body along {axis}", of=FRICTION, beyond=0.0
+    )
+    for axis in "xy"
+}
+FIELDS |= {
+    "slip_state": Variable(
+        *("1", "cells where the bodies stick or slip", "i1"),
+        flags=("open", "stick", "slip"),
+        of=FRICTION,
+        beyond=0,
+    ),
+    "friction_work": Variable(
+        "J m-2", "work of friction per area since the start", of=FRICTION, beyond=0.0
+    ),
+}
+
 #: Fields along x, integrated over y.
 LINES = {"line_load": Variable("N/m", "line load along x: pressure integrated over y")}
 
@@ -119,6 +144,17 @@ def _position(axis: str, rank: int) -> Variable:
     """Position of a moving body along an axis, which is prescribed."""
     name, label = f"position of the body's axis along {axis}", f"Position along {axis}"
     return Variable("m", name, label=label, places=Place.LOAD, rank=rank, of=MOTION)
+
+
+def _shear(
+    units: str,
+    long_name: str,
+    label: str,
+    rank: int,
+    places: Place = Place.CARD | Place.RESPONSE | Place.FIGURE,
+) -> Variable:
+    """A scalar of a contact under friction."""
+    return _scalar(units, long_name, label, rank, places, of=FRICTION)
 
 
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
@@ -195,6 +231,34 @@ SCALARS = {
     ),
     "dissipation": _scalar("W", "power lost in the bodies", "Dissipation", 19, _LOST, of=MOTION),
     "heat": _scalar("J", "energy lost in the bodies since the start", "Heat", 20, _LOST, of=MOTION),
+    "tangential_force_x": _shear("N", "tangential force along x", "Tangential force along x", 27),
+    "tangential_force_y": _shear("N", "tangential force along y", "Tangential force along y", 28),
+    "torque": _shear("N m", "torque of the tractions about the axis", "Torque", 29),
+    "tangential_displacement_x": _shear(
+        "m", "rigid shift of the body along x", "Tangential displacement along x", 30
+    ),
+    "tangential_displacement_y": _shear(
+        "m", "rigid shift of the body along y", "Tangential displacement along y", 31
+    ),
+    "rotation": _shear("rad", "rotation of the body about its axis", "Rotation", 32),
+    "stick_area": _shear("m2", "area where the bodies stick", "Stick area", 33),
+    "slip_fraction": _shear(
+        "1", "part of the contact that slips", "Slip fraction", 34, Place.CARD | Place.RESPONSE
+    ),
+    "friction_heat": _shear("J", "heat of friction since the start", "Friction heat", 35),
+    "friction_power": _shear("W", "heat of friction over time", "Friction power", 36),
+    "tangential_stiffness_x": _shear(
+        *("N/m", "change of the tangential force over that of the shift, along x"),
+        *("Tangential stiffness along x", 37, Place.NOWHERE),
+    ),
+    "tangential_stiffness_y": _shear(
+        *("N/m", "change of the tangential force over that of the shift, along y"),
+        *("Tangential stiffness along y", 38, Place.NOWHERE),
+    ),
+    "duality_gap": Variable(
+        *("1", "bound of the energy of the error of the tractions"),
+        of=FRICTION,
+    ),
     "temperature": Variable(
         "K",
         "temperature of the bodies",
@@ -252,6 +316,11 @@ def scalars_of(parts: Container[str] = (), over: str = "time") -> dict[str, Vari
     }
 
 
+def fields_of(parts: Container[str] = ()) -> dict[str, Variable]:
+    """Fields over the cells of a result: those that all have, and those of its parts."""
+    return {name: each for name, each in FIELDS.items() if not each.of or each.of in parts}
+
+
 def field_axis_attributes(over: str) -> dict[str, Any]:
     """Attributes of the times or speeds of the stored fields."""
     return AXES[over].attributes | {"long_name": f"{over} of the stored fields"}
@@ -279,9 +348,11 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
-def scalars_with_error(*, moving: bool = True, over: str = "time") -> list[str]:
-    """Names of the scalars whose error is estimated, of a standing or of a moving contact."""
-    found = scalars_of((MOTION,) if moving else (), over)
+def scalars_with_error(
+    parts: Container[str] = (MOTION, FRICTION), over: str = "time"
+) -> list[str]:
+    """Names of the scalars whose error is estimated, of contacts with some parts."""
+    found = scalars_of(parts, over)
     return [name for name, variable in found.items() if variable.has_error]
 
 

@@ -102,7 +102,7 @@ def value_columns(
 
 def known_scalar(argument: str, name: str) -> str:
     """Name of a scalar with an error bar; ValueError for another one, with the argument."""
-    names = scalars_with_error(moving=True)
+    names = scalars_with_error()
     if name in names:
         return name
     close = difflib.get_close_matches(name, names, 1)

@@ -14,7 +14,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
-from viscontact.mechanics.state import MOTION, ContactState
+from viscontact.mechanics.state import ContactState
 from viscontact.results.digests import RunningDigests
 from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.stored_result import StoredFile, keep_little
@@ -28,6 +28,7 @@ from viscontact.results.variables import (
     Variable,
     error_name,
     field_axis_attributes,
+    fields_of,
     scalar_attributes,
     scalars_of,
     scalars_with_error,
@@ -70,7 +71,7 @@ class Layout:
         columns = {name: ((AXES | COORDINATES)[name], (name,)) for name in (self.over, "x", "y")}
         columns |= {name: (variable, (self.over,)) for name, variable in self.scalars.items()}
         if self.errors:
-            names = map(error_name, scalars_with_error(moving=MOTION in self.parts, over=self.over))
+            names = map(error_name, scalars_with_error(self.parts, self.over))
             columns |= {name: (ERRORS[name], (self.over,)) for name in names}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
         if self.axis is None:
@@ -78,13 +79,14 @@ class Layout:
         if self.axis != self.over:
             about = field_axis_attributes(self.over)
             found[self.axis] = (Variable(about["units"], about["long_name"]), (self.axis,))
-        axes = dict.fromkeys(FIELDS, ("x", "y")) | dict.fromkeys(LINES, ("x",))
+        fields = fields_of(self.parts)
+        axes = dict.fromkeys(fields, ("x", "y")) | dict.fromkeys(LINES, ("x",))
         return found | {
             name: (
                 replace(variable, kind=self.kind) if variable.kind == "f8" else variable,
                 (self.axis, *axes[name]),
             )
-            for name, variable in (FIELDS | LINES).items()
+            for name, variable in (fields | LINES).items()
         }
 
     def extent_of(self, file: netCDF4.Dataset | StoredFile) -> Extent:
@@ -160,7 +162,7 @@ def _create(
     options: dict[str, Any] = {"fill_value": np.nan} if variable.kind in ("f4", "f8") else {}
     if name in FIELDS | LINES:
         options["chunksizes"] = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
-    if name in ("pressure", "in_contact"):
+    if name in ("pressure", "in_contact") or (name in FIELDS and FIELDS[name].of):
         # Mostly 0. Gap and displacement hardly shrink, at many times the cost of writing.
         options |= {"zlib": True, "complevel": 1, "shuffle": True}
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
@@ -216,7 +218,7 @@ def write_fields(
     file: netCDF4.Dataset, digests: RunningDigests, layout: Layout, row: int, state: ContactState
 ) -> None:
     """Write the fields of a state on the grid of the layout or a smaller one, and their instant."""
-    for name in FIELDS:
+    for name in fields_of(layout.parts):
         values = on_wider(name, getattr(state, name), state.grid, layout.grid)
         _write_rows(file, digests, name, row, values[np.newaxis])
     for name in LINES:

@@ -154,7 +154,7 @@ class ObservedStates:
 
 def history_of(states: Sequence[ContactState]) -> History:
     """Scalars of states that are used to estimate their errors, over their instants."""
-    scalars = scalars_with_error(moving=bool(states) and states[0].moving)
+    scalars = scalars_with_error(states[0].parts if states else ())
     names = ["time", *scalars, "cells_across", "time_error"]
     if states and states[0].thickening is not None:
         names.append("thickening")

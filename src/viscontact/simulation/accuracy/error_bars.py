@@ -71,6 +71,12 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure", "peak_line_load"),
 )
 
+#: The same of a contact under friction.
+ZERO_WITHOUT_GRIP = (
+    *("tangential_force_x", "tangential_force_y", "torque"),
+    *("stick_area", "slip_fraction"),
+)
+
 #: The same of a moving contact, and those that are zero before the first contact.
 ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
 ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
@@ -145,6 +151,9 @@ def error_bars_from(
         ):
             for name in names:
                 values[name][where] = 0.0
+    if run.problem.friction is not None:
+        for name in ZERO_WITHOUT_GRIP:
+            values[name][apart] = 0.0
     peaks = values["peak_pressure"]
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)

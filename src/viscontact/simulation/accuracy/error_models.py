@@ -87,6 +87,9 @@ INSTANTS = ErrorModel(2.0, 1.6)
 #: second order else. Calibrated on starts, reciprocations and steps of parts of cells.
 _RESISTANCE, _LOSS = ErrorModel(1.5, 1.0), ErrorModel(1.5, 1.5)
 
+#: Scalars of friction: of second order but for the stick radius, which jumps by cells.
+_SHEAR = ErrorModel(1.0, 1.5, of_time_error=0.5)
+
 #: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
 #: except at the rim, which lies between cells.
 ERROR_MODELS = {
@@ -109,6 +112,18 @@ ERROR_MODELS = {
     "motion_work": _LOSS,
     "dissipation": _LOSS,
     "heat": _LOSS,
+    "tangential_force_x": _SHEAR,
+    "tangential_force_y": _SHEAR,
+    "torque": _SHEAR,
+    "tangential_displacement_x": _SHEAR,
+    "tangential_displacement_y": _SHEAR,
+    "rotation": _SHEAR,
+    "stick_area": _SHEAR,
+    "slip_fraction": _SHEAR,
+    "friction_heat": _SHEAR,
+    "friction_power": _SHEAR,
+    "tangential_stiffness_x": _SHEAR,
+    "tangential_stiffness_y": _SHEAR,
 }
 
 #: Those that replace them for moving contacts: the loss of a cycle has the work of the motion.

@@ -11,12 +11,13 @@ import numpy as np
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.rim import Rim
 from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import MOTION
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.resistance import Resistance
 
 #: Scalars that have an error bar.
-WITH_ERROR = tuple(scalars_with_error(over="speed"))
+WITH_ERROR = tuple(scalars_with_error((MOTION,), "speed"))
 
 #: Least relative errors of scalars, times the square of the cells across the contact.
 LEAST_ERRORS = {

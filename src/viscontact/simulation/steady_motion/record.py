@@ -12,16 +12,16 @@ import numpy as np
 from viscontact import __version__
 from viscontact.backend.arrays import Field, Floats
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import MOTION, ContactState
 from viscontact.results.descriptions import describe
-from viscontact.results.variables import FIELDS, scalars_with_error
+from viscontact.results.variables import fields_of, scalars_with_error
 from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
 
 def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, Floats]:
     """Error bars of each scalar over the speeds, in its unit."""
-    names = scalars_with_error(over="speed")
+    names = scalars_with_error((MOTION,), "speed")
     return {name: np.array([each[name] for each in bars]) for name in names}
 
 
@@ -31,7 +31,7 @@ def on_grid(state: ContactState, grid: Grid) -> ContactState:
         return replace(state, grid=grid)
     fields: dict[str, Any] = {
         name: _embed(getattr(state, name), state.grid, grid, variable.beyond)
-        for name, variable in FIELDS.items()
+        for name, variable in fields_of().items()
     }
     line_load = _embed(state.line_load, state.grid, grid, 0.0)
     return replace(state, grid=grid, line_load=line_load, **fields)
