@@ -16,12 +16,20 @@ _Stress = Annotated[float, WithUnit("pressure", POSITIVE)]
 _LineLoad = Annotated[float, WithUnit("line load", POSITIVE)]
 _Energy = Annotated[float, WithUnit("energy", POSITIVE)]
 _Power = Annotated[float, WithUnit("power", POSITIVE)]
+_Torque = Annotated[float, WithUnit("torque", POSITIVE)]
+_Stiffness = Annotated[float, WithUnit("stiffness", POSITIVE)]
 _Ratio = Annotated[float, Field(gt=0)]
 
-#: Quantities that only moving contacts have, and those that steady motion does not have.
+#: Quantities that only moving contacts have, only those under friction, and those that steady
+#: motion does not have.
 MOVING = (
     *("resistance_x", "resistance_y", "friction_coefficient", "motion_work"),
     *("dissipation", "heat"),
+)
+GRIPPING = (
+    *("tangential_force_x", "tangential_force_y", "torque", "rotation", "stick_area"),
+    *("tangential_displacement_x", "tangential_displacement_y", "slip_fraction"),
+    *("friction_heat", "friction_power", "tangential_stiffness_x", "tangential_stiffness_y"),
 )
 NOT_STEADY = ("work", "loss_per_cycle", "motion_work", "heat")
 
@@ -73,18 +81,41 @@ class Allowable(Section):
     heat: _Energy | None = Field(
         default=None, description="energy lost in the bodies since the start"
     )
+    tangential_force_x: _Force | None = Field(default=None, description="along x")
+    tangential_force_y: _Force | None = Field(default=None, description="along y")
+    torque: _Torque | None = Field(default=None, description="of the tractions about the axis")
+    tangential_displacement_x: _Length | None = Field(
+        default=None, description="shift of the body along x"
+    )
+    tangential_displacement_y: _Length | None = Field(
+        default=None, description="shift of the body along y"
+    )
+    rotation: _Angle | None = Field(default=None, description="of the body about its axis")
+    stick_area: _Area | None = Field(default=None, description="where the bodies stick")
+    slip_fraction: _Ratio | None = Field(default=None, description="part of the contact that slips")
+    friction_heat: _Energy | None = Field(
+        default=None, description="heat of friction since the start"
+    )
+    friction_power: _Power | None = Field(default=None, description="heat of friction over time")
+    tangential_stiffness_x: _Stiffness | None = Field(default=None, description="along x")
+    tangential_stiffness_y: _Stiffness | None = Field(default=None, description="along y")
 
     @property
     def limits(self) -> dict[str, float]:
         """The given limits, by name, in SI units."""
         return {name: limit for name, limit in self.model_dump().items() if limit is not None}
 
-    def require_known(self, *, moving: bool, steady: bool) -> None:
-        """Raise ValueError for a quantity that a run without motion, or a steady one, lacks."""
+    def require_known(self, *, moving: bool, steady: bool, grips: bool) -> None:
+        """Raise ValueError for a quantity that a run lacks, by its motion and friction."""
         for name in self.limits:
             if name in MOVING and not moving:
                 raise ValueError(
                     f"allowable.{name}: only a moving contact has it; add a motion, or leave it out"
+                )
+            if name in GRIPPING and not grips:
+                raise ValueError(
+                    f"allowable.{name}: only a contact under friction has it; add friction and a "
+                    "tangential load, or leave it out"
                 )
             if name in NOT_STEADY and steady:
                 raise ValueError(f"allowable.{name}: steady motion does not have it; leave it out")

@@ -18,6 +18,7 @@ from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
+from viscontact.case.friction import AnyTangential, FrictionSection
 from viscontact.case.loads.temperature import AnyTemperature
 from viscontact.case.materials.layers import AnyBody, Layer
 from viscontact.case.materials.material import AnyMaterial
@@ -37,12 +38,14 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "report": TitleBlock,
     "allowable": Allowable,
     "leakage": Leakage,
+    "friction": FrictionSection,
 }
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
 _MOTIONS = alternatives(AnyMotion)
 # Histories and harmonic temperatures have the names of loads.
 _TEMPERATURES = alternatives(AnyTemperature)
+_TANGENTIAL = alternatives(AnyTangential)
 _NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyBody) | alternatives(AnyLoad)
 _SINGLE = alternatives(AnyMaterial)  # of a layer, which has no layers of its own
 _ALTERNATIVES = _NO_SHIFTS | _SHIFTS | _MOTIONS | {"range": SpeedRange}
@@ -52,6 +55,7 @@ _WITHIN: dict[str | int, dict[str | int, Any]] = {
     "profile": _PROFILES,
     "motion": _MOTIONS,
     "temperature": _TEMPERATURES,
+    "tangential": _TANGENTIAL,
 }
 
 
@@ -144,6 +148,8 @@ def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
     named = _PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
     if loc[:1] == ("temperature",):
         named = _TEMPERATURES
+    if loc[:1] == ("tangential",):
+        named = _TANGENTIAL
     return next((named[step] for step in within if step in named), section)
 
 
@@ -211,6 +217,7 @@ def _elsewhere(model: type[BaseModel], given: str) -> str:
         **{str(name): [section] for name, section in _SECTIONS.items()},
         "motion": list(_MOTIONS.values()),
         "temperature": list(_TEMPERATURES.values()),
+        "tangential": list(_TANGENTIAL.values()),
     }
     for word in (given, *meanings(given)):
         for name, models in sections.items():

@@ -15,6 +15,7 @@ from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
+from viscontact.case.friction import AnyTangential, FrictionSection
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
@@ -46,6 +47,12 @@ class CaseFile(Section):
         default=None,
         description="temperature of all bodies, constant or over time, to which the shifts of "
         "their materials take the laws; laws are used as they are when left out",
+    )
+    friction: FrictionSection | None = Field(
+        default=None, description="friction between the bodies; without it they slip freely"
+    )
+    tangential: AnyTangential | None = Field(
+        default=None, description="load along the surface, carried by friction"
     )
     motion: AnyMotion | None = Field(
         default=None, description="motion of the body over the surface; at rest when left out"
@@ -99,7 +106,12 @@ class CaseFile(Section):
             constant_load(self.history())
             if self.temperature is not None:
                 require_constant(self.temperature.built)
-        self.allowable.require_known(moving=not stands, steady=steady)
+        if steady and self.friction is not None:
+            raise ValueError(
+                "friction: it is not supported in steady motion; leave this section out"
+            )
+        grips = self.friction is not None
+        self.allowable.require_known(moving=not stands, steady=steady, grips=grips)
         if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self

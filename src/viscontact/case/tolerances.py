@@ -16,7 +16,10 @@ from viscontact.units.tolerances import read_toleranced
 _LOOKS_TOLERANCED = re.compile(r"\s*([+-]?[\d.][^±]*?)\s*(?:±|\+/-|\+-).*")
 
 #: Sections whose numbers may have a tolerance.
-SECTIONS = ("indenter", "material", "indenter_material", "load", "motion", "temperature")
+SECTIONS = (
+    *("indenter", "material", "indenter_material", "load", "motion", "temperature"),
+    *("friction", "tangential"),
+)
 
 
 @dataclass(frozen=True)

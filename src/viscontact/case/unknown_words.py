@@ -88,12 +88,15 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
 )
 _MEANINGS = {word: meant for words, meant in _SYNONYMS for word in words.split()}
 
-_FRICTION = "friction is not available: the contact transmits pressure only"
 _ADHESION = "adhesion is not available: the bodies do not attract each other"
 _PLASTICITY = "plasticity is not available: the materials are linear viscoelastic"
 _HARDNESS = (
     "a hardness does not determine how a material creeps: give moduli or measured data, see "
     "'Bring your creep data' in the manual (howto/creep-data)"
+)
+_FRICTION = (
+    "friction is a section at the top of the case: write 'friction: {coefficient: 0.3}', and the "
+    "load along the surface as 'tangential: {kind: step, force_x: 1.5 N}'"
 )
 _HEAT = (
     "heat is not computed during a run: give the temperature of the bodies, constant or over time, "
@@ -102,7 +105,6 @@ _HEAT = (
 
 #: Effects that are not modelled, by the words that ask for them.
 _NOT_AVAILABLE = {
-    **dict.fromkeys(("friction", "friction_coefficient", "mu", "cof", "traction"), _FRICTION),
     **dict.fromkeys(("adhesion", "work_of_adhesion", "surface_energy", "jkr", "dmt"), _ADHESION),
     **dict.fromkeys(("plasticity", "yield_stress", "yield_strength"), _PLASTICITY),
     **dict.fromkeys(("heat", "thermal_expansion", "conductivity", "heat_flux"), _HEAT),
@@ -120,9 +122,12 @@ _NOT_AVAILABLE = {
 
 
 #: Measures that no key takes, with what to give instead.
-_INSTEAD = dict.fromkeys(
-    ("hardness", "shore", "shore_a", "shore_d", "shore_hardness", "irhd"), _HARDNESS
-)
+_INSTEAD = {
+    **dict.fromkeys(
+        ("hardness", "shore", "shore_a", "shore_d", "shore_hardness", "irhd"), _HARDNESS
+    ),
+    **dict.fromkeys(("friction", "friction_coefficient", "mu", "cof", "traction"), _FRICTION),
+}
 
 
 def unknown_word(what: str, given: object, allowed: list[str]) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Field, Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import ContactState
-from viscontact.results.variables import FIELDS
+from viscontact.results.variables import EVERY_FIELD
 from viscontact.units.formatting import format_quantity
 
 
@@ -18,7 +18,7 @@ def on_wider(name: str, field: Field, grid: Grid, wider: Grid) -> Field:
     # Beyond its grid pressure is 0, gap and displacement are NaN, and no cell is in contact.
     if grid == wider:
         return field
-    return grid.embed(field, wider, beyond=FIELDS[name].beyond)
+    return grid.embed(field, wider, beyond=EVERY_FIELD[name].beyond)
 
 
 def line_on_wider(line: Floats, grid: Grid, wider: Grid) -> Floats:

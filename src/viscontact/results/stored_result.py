@@ -15,7 +15,7 @@ from viscontact.results.digests import StoredDigests
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.seal import check_seal
 from viscontact.results.stated_sizes import require_stated_sizes
-from viscontact.results.variables import FIELDS
+from viscontact.results.variables import EVERY_FIELD
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,7 +45,7 @@ def without_masks(file: netCDF4.Dataset) -> netCDF4.Dataset:
 
 def keep_little(file: netCDF4.Dataset) -> None:
     """Let HDF5 write fields at once: its default cache holds some dozen rows until closing."""
-    for name in FIELDS:
+    for name in EVERY_FIELD:
         if name in file.variables:
             file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 

@@ -98,30 +98,20 @@ FIELDS = {
     ),
 }
 
-#: Fields that only results of some parts have, as those under friction.
-FIELDS |= {
-    f"traction_{axis}": Variable(
-        "Pa", f"traction of the body on the half-space along {axis}", of=FRICTION, beyond=0.0
-    )
-    for axis in "xy"
-}
-FIELDS |= {
-    f"slip_{axis}": Variable(
-        "m", f"slip of the surface under the body along {axis}", of=FRICTION, beyond=0.0
-    )
-    for axis in "xy"
-}
-FIELDS |= {
+#: Further fields of results under friction.
+FRICTION_FIELDS = {
+    "traction_x": Variable("Pa", "traction of the body on the half-space along x", beyond=0.0),
+    "traction_y": Variable("Pa", "traction of the body on the half-space along y", beyond=0.0),
+    "slip_x": Variable("m", "slip of the surface under the body along x", beyond=0.0),
+    "slip_y": Variable("m", "slip of the surface under the body along y", beyond=0.0),
     "slip_state": Variable(
         *("1", "cells where the bodies stick or slip", "i1"),
         flags=("open", "stick", "slip"),
-        of=FRICTION,
         beyond=0,
     ),
-    "friction_work": Variable(
-        "J m-2", "work of friction per area since the start", of=FRICTION, beyond=0.0
-    ),
+    "friction_work": Variable("J m-2", "work of friction per area since the start", beyond=0.0),
 }
+EVERY_FIELD = FIELDS | FRICTION_FIELDS
 
 #: Fields along x, integrated over y.
 LINES = {"line_load": Variable("N/m", "line load along x: pressure integrated over y")}
@@ -318,7 +308,7 @@ def scalars_of(parts: Container[str] = (), over: str = "time") -> dict[str, Vari
 
 def fields_of(parts: Container[str] = ()) -> dict[str, Variable]:
     """Fields over the cells of a result: those that all have, and those of its parts."""
-    return {name: each for name, each in FIELDS.items() if not each.of or each.of in parts}
+    return EVERY_FIELD if FRICTION in parts else FIELDS
 
 
 def field_axis_attributes(over: str) -> dict[str, Any]:

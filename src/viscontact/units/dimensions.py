@@ -40,6 +40,7 @@ DIMENSIONS = {
     "area": Dimension("an area", "m^2", "25 mm^2", ("um^2", "mm^2", "cm^2", "m^2")),
     "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
     "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),
+    "torque": Dimension("a torque", "N m", "2 N m", ("N mm", "N m", "kN m")),
     "power": Dimension("a power", "W", "2 W", ("mW", "W", "kW")),
     "stiffness": Dimension("a stiffness", "N/m", "0.1 N/m", ("N/m", "mN/m", "kN/m")),
     "voltage": Dimension("a voltage", "V", "1 V", ("mV", "V")),

@@ -22,7 +22,8 @@ from viscontact.results.variables import (
     AXES,
     COORDINATES,
     ERRORS,
-    FIELDS,
+    EVERY_FIELD,
+    FRICTION_FIELDS,
     LINES,
     SCALARS,
     Variable,
@@ -160,9 +161,9 @@ def _create(
     file: netCDF4.Dataset, name: str, variable: Variable, dimensions: tuple[str, ...]
 ) -> None:
     options: dict[str, Any] = {"fill_value": np.nan} if variable.kind in ("f4", "f8") else {}
-    if name in FIELDS | LINES:
+    if name in EVERY_FIELD | LINES:
         options["chunksizes"] = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
-    if name in ("pressure", "in_contact") or (name in FIELDS and FIELDS[name].of):
+    if name in ("pressure", "in_contact") or name in FRICTION_FIELDS:
         # Mostly 0. Gap and displacement hardly shrink, at many times the cost of writing.
         options |= {"zlib": True, "complevel": 1, "shuffle": True}
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
@@ -195,7 +196,7 @@ def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
 def described_fields(file: netCDF4.Dataset | StoredFile) -> dict[str, Any] | None:
     """Describe instants [s] or speeds [m/s], and grid [m], of the stored fields; None without."""
     # Results with equal descriptions store fields at the same places.
-    if not (names := [name for name in FIELDS | LINES if name in file.variables]):
+    if not (names := [name for name in EVERY_FIELD | LINES if name in file.variables]):
         return None
     axis = str(file.variables[names[0]].dimensions[0])
     centres = {name: file.variables[name][:] for name in ("x", "y")}
@@ -258,7 +259,7 @@ def copy_rows(
             continue
         for rows in _blocks(last, grid.shape[: len(dimensions) - 1]):
             values = source.variables[name][rows]
-            if name in FIELDS:
+            if name in EVERY_FIELD:
                 values = on_wider(name, values, layout.grid, grid)
             elif name in LINES:
                 values = line_on_wider(values, layout.grid, grid)

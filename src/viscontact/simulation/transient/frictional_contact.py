@@ -47,8 +47,8 @@ from viscontact.units.formatting import format_quantity
 #: Least displacement that errors are relative to, over friction times that under pressure [-].
 LEAST_SHIFT = 0.01
 
-#: Part of what friction carries that counts as a force without contact.
-NEGLIGIBLE = 1e-12
+#: Part of what friction carries, and of the displacements of a step, that counts as rounding.
+ROUNDING = 1e-9
 
 
 class Frictionless:
@@ -133,7 +133,7 @@ class FrictionalContact:
         if pressure.any():
             region = self._domain.region_of(before.touched | (pressure > 0))
             found = self._solved(step, solution, responses, constraints, region)
-            after = self._after(solution, found, region)
+            after = self._after(solution, found, constraints, region)
         else:
             self._refuse_force_apart(step, constraints)
             found = None
@@ -204,7 +204,13 @@ class FrictionalContact:
         poisson = sum(term.poisson * response.compliance for term, response in pairs)
         return direct, poisson / direct
 
-    def _after(self, solution: StepSolution, found: SlipSolution, region: Region) -> SlipState:
+    def _after(
+        self,
+        solution: StepSolution,
+        found: SlipSolution,
+        constraints: ShiftConstraints,
+        region: Region,
+    ) -> SlipState:
         """State after a step in contact."""
         before, pressure, cut = self._state, solution.pressure, region.cut
         traction = np.zeros(before.traction.shape)
@@ -215,7 +221,15 @@ class FrictionalContact:
         # linearly, while the mean traction over it loses a quarter in one step.
         mean = self._coefficient * (before.pressure + pressure) / 2
         lost = mean * np.hypot(*moved)
-        forces = self._domain.shift(region).resultants(found.traction)
+        shift = self._domain.shift(region)
+        forces = shift.resultants(found.traction)
+        carried = self._coefficient * float(pressure.sum()) * shift.cell_area
+        arms = np.array([1.0, 1.0, constraints.arm])
+        # What rounding leaves of symmetric loads is none.
+        forces[np.abs(forces) < ROUNDING * carried * arms] = 0.0
+        motion = found.motion * arms
+        noise = ROUNDING * max(float(np.abs(motion).max()), found.displacement)
+        motion[constraints.free & (np.abs(motion) < noise)] = 0.0
         return SlipState(
             traction,
             np.where(pressure > 0, before.slip + moved, 0.0),
@@ -223,7 +237,7 @@ class FrictionalContact:
             pressure,
             solution.gap,
             before.touched | (pressure > 0),
-            before.motion + found.motion,
+            before.motion + motion / arms,
             forces,
             before.heat + float(lost.sum()) * self._run.grid.cell_area,
         )

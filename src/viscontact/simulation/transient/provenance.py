@@ -63,6 +63,11 @@ def event_attributes(
 def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
     heat = {} if problem.temperature is None else {"temperature": describe(problem.temperature)}
+    grip = {
+        name: describe(given)
+        for name, given in (("friction", problem.friction), ("tangential", problem.tangential))
+        if given is not None
+    }
     motion = {} if problem.motion.stands else {"motion": describe(problem.motion)}
     return {
         "indenter": describe(problem.indenter),
@@ -71,6 +76,7 @@ def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
         "load": describe(problem.load),
         **motion,
         **heat,
+        **grip,
         "grid": describe(grid),
         "automatic": describe(problem.automatic_grid),
         "times": describe(problem.instants),

@@ -12,7 +12,7 @@ from xarray.core import indexing
 
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.stored_result import StoredFile
-from viscontact.results.variables import FIELDS, LINES
+from viscontact.results.variables import EVERY_FIELD, LINES
 from viscontact.studies.sweep.joint_layout import JointLayout
 from viscontact.studies.sweep.states import State
 
@@ -72,10 +72,10 @@ def lazy_fields(layout: JointLayout) -> xr.Dataset:
     rows = layout.steps if axis in (layout.over, "step") else len(described["instants"])
     arrays = {}
     for name in described["names"]:
-        dims = (axis, "x", "y") if name in FIELDS else (axis, "x")
+        dims = (axis, "x", "y") if name in EVERY_FIELD else (axis, "x")
         sizes = (rows, *(coords[each][1].size for each in dims[1:]))
         lazy = indexing.LazilyIndexedArray(_SweepField(layout, name, sizes))
-        attributes = (FIELDS | LINES)[name].attributes
+        attributes = (EVERY_FIELD | LINES)[name].attributes
         arrays[name] = (*((*layout.axes.dims, *dims),), lazy, attributes)
     return xr.Dataset(arrays, coords)
 

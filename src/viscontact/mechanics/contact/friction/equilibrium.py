@@ -90,6 +90,7 @@ def _solution(
         np.where(slips, 2, found.directions.sticks.astype(np.intp)),
         found.error,
         found.duality_gap,
+        found.displacement,
         *spent,
         converged=found.error <= tolerance and meets,
     )

@@ -121,6 +121,7 @@ class SlipSolution:
     state: Integers  # 0 open, 1 stick, 2 slip
     residual: float  # largest deviation of slip from the friction law over the displacement [-]
     duality_gap: float  # bound of the energy of the error over that of the step [-]
+    displacement: float  # largest displacement in the step [m]
     iterations: int  # search directions
     convolutions: int  # of pairs of fields
     converged: bool

@@ -21,6 +21,7 @@ class SlipResidual:
     error: float  # largest deviation from the friction law over the largest displacement [-]
     duality_gap: float  # over the energy of the step [-]
     objective: float  # what the solution minimises [Pa m]
+    displacement: float  # largest displacement, which errors are relative to [m]
 
 
 def slip_residual(
@@ -49,7 +50,8 @@ def slip_residual(
     gap = _gap(problem, traction, slip, scale)
     given = shift.field(problem.constraints.motions)
     objective = float((traction * ((before + problem.past) / 2 - given)).sum())
-    return SlipResidual(motion, slip, directions, float(wrong.max()) / scale, gap, objective)
+    error = float(wrong.max()) / scale
+    return SlipResidual(motion, slip, directions, error, gap, objective, scale)
 
 
 def _fitted(
