@@ -106,6 +106,32 @@ RUNS = {
             temperature=vc.TemperatureHistory([0.0, 3.0, 5.0], [293.15, 313.15, 303.15]),
         )
     ),
+    "fretting with a load that varies": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            UP_AND_DOWN,
+            GRID,
+            vc.uniform_times(5.0, 9),
+            friction=vc.Friction(0.4),
+            tangential=vc.TangentialHistory(
+                [0, 0.8, 1.6, 2.4, 3, 4, 5],
+                force_x=[0, 0.03, -0.03, 0, 0, 0, 0.02],
+                rotation=[0, 1e-3, 0, 0, 0, 0, 1e-3],
+            ),
+        )
+    ),
+    "shifts under a power law": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            POWER,
+            vc.ramp(0.1, 1.0),
+            SMALL,
+            vc.uniform_times(2.0, 10),
+            friction=vc.Friction(0.3, coupling=False),
+            tangential=vc.tangential_ramp(displacement_y=2e-5, duration=2.0),
+        )
+    ),
     "moving punch that is lifted": lambda: prepare_run(
         Problem(
             vc.FlatPunch(3e-4),

@@ -173,7 +173,8 @@ class FrictionalContact:
         compliance, kappa = self._new(responses)
         state, pressure = self._state, solution.pressure[cut]
         entry = entry_compliance(
-            pressure, state.pressure[cut], state.gap[cut], self._run.grid.cell_size, kappa
+            *(pressure, state.pressure[cut], state.gap[cut], self._run.grid.cell_size, kappa),
+            plane=not self._run.grid.has_datum,
         )
         largest = float(np.abs(solution.displacement).max())
         problem = SlipProblem(

@@ -73,6 +73,25 @@ def test_an_oblique_load_that_grows_sticks_everywhere(kappa):
     assert found.motion[0] == close_to(way, rel=5e-3)
 
 
+def test_the_compliance_of_entry_goes_from_the_edge_to_a_first_contact():
+    """Modes II and III of a crack at the edge; Hertz's field far from a small contact."""
+    kappa = 0.8
+    gap = np.linspace(1.0, 2.0, 40_000).reshape(1, -1)
+    before = np.zeros(gap.shape)
+    before[0, :8] = 1.0
+    pressure = np.ones(gap.shape)
+    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    # The gap opens along y.
+    assert yy[0, -1] == close_to(1 + kappa / 4, rel=0.05)
+    assert xx[0, -1] == close_to(1 + 3 * kappa / 4, rel=0.05)
+    before[0, :39_990] = 1.0
+    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    assert (yy[0, -1], xx[0, -1]) == close_to((1.0, 1 + kappa), rel=1e-3)
+    before[:] = 0.0
+    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    assert (yy[0, 9], xx[0, 9]) == close_to((1 + kappa / 4, 1 + 3 * kappa / 4), rel=1e-12)
+
+
 def test_no_entry_in_cells_that_were_in_contact():
     pressure = np.array([[0.0, 1.0], [2.0, 4.0]])
     before = np.array([[0.0, 1.0], [1.0, 0.0]])

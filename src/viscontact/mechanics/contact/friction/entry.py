@@ -1,43 +1,82 @@
 """Compliance of cells that come into contact during a step.
 
 At the begin of the step such a cell is still free, and slides under the body while it closes its
-gap; to hold it there would be false. Near the edge of a growing contact the surface moves along
-itself, against the body, in the ratio of the tractions q/p to the movement that closes the gap,
-times C: by modes II and III of a crack, C = n n^T + (1 + κ) t t^T with the normal n of the edge. So
-a cell that sticks from its touch on has the slip -C (q/p) gap, as if it were more compliant by
-C gap/p. In a first contact, all of which is new, Hertz's field of displacement has instead
-C = (1 + κ/4) n n^T + (1 + 3 κ/4) t t^T, exact for a paraboloid.
+gap; to hold it there would be false. As the contact grows the surface moves along itself, against
+the body, in the ratio of the tractions q/p to the movement that closes the gap, times C. So a cell
+that sticks from its touch on has the slip -C (q/p) gap, as if it were more compliant by C gap/p.
+Near the edge, by modes II and III of a crack, C = n n^T + (1 + κ) t t^T with the normal n of the
+edge; so it is everywhere in a line contact. Farther out, of a sphere under tractions in proportion
+to its pressure, at ρ contact radii,
+
+    C_n = [ρ² (4 + κ)/8 - (2 + κ) (π - A)/(2π) + κ B/(4π)]/(ρ²/2 - 1 + A/π),
+    C_t = [ρ² (4 + 3κ)/8 - (2 + κ) (π - A)/(2π) - κ B/(4π)]/(ρ²/2 - 1 + A/π),
+    A = (2 - ρ²) asin(1/ρ) + (ρ² - 1)^(1/2),  B = ρ² asin(1/ρ) + (2 - ρ²) (ρ² - 1)^(1/2)/ρ²,
+
+which is 1 + κ/4 and 1 + 3κ/4 for a first contact, all of which is new.
 
 References
 ----------
-K. L. Johnson, Contact Mechanics, Cambridge (1985), sections 3.7, 5.1 and 7.2.
+K. L. Johnson, Contact Mechanics, Cambridge (1985), eqs. 3.42a, 3.91a and 3.91b, section 5.1.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
+
+#: Contact radii up to which a cell is near the edge.
+NEAR = 1.001
 
 
-def entry_compliance(
+def entry_compliance(  # noqa: PLR0913, PLR0917
     pressure: Floats,
     before: Floats,
     gap: Floats,
     cell_size: tuple[float, float],
     kappa: float,
+    *,
+    plane: bool = False,
 ) -> Floats:
     """Entries xx, xy and yy of C gap/p in cells that enter [m/Pa], shape (3, nx, ny).
 
-    `before` and `gap` are pressure [Pa] and gap [m] at the begin of the step.
+    `before` and `gap` are pressure [Pa] and gap [m] at the begin of the step; `plane` tells a line
+    contact.
     """
-    enters = (pressure > 0) & (before <= 0)
-    compliance = np.divide(gap, pressure, out=np.zeros(gap.shape), where=enters & np.isfinite(gap))
-    is_first = not (before > 0).any()
-    along, across = (1 + kappa / 4, 1 + 3 * kappa / 4) if is_first else (1.0, 1 + kappa)
+    enters = (pressure > 0) & (before <= 0) & np.isfinite(gap)
+    compliance = np.divide(gap, pressure, out=np.zeros(gap.shape), where=enters)
+    along, across = np.ones(gap.shape), np.full(gap.shape, 1 + kappa)
+    if not plane:
+        along[enters], across[enters] = _ratios(_radii(enters, before > 0, gap), kappa)
     x, y = _edge_normal(gap, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
     return np.stack([xx, (along - across) * x * y, yy]) * np.maximum(compliance, 0.0)
+
+
+def _radii(enters: Bools, held: Bools, gap: Floats) -> Floats:
+    """Distance of cells that enter, in the radii of a round contact before; inf without one."""
+    # Cells enter in the order of their gaps: the area inside is known when each does.
+    order = np.argsort(gap[enters], kind="stable")
+    area = np.empty(order.size)
+    count = np.count_nonzero(held)
+    area[order] = count + np.arange(order.size) + 0.5
+    return np.sqrt(area / count) if count else np.full(order.size, np.inf)
+
+
+def _ratios(radii: Floats, kappa: float) -> tuple[Floats, Floats]:
+    """C along the normal of the edge and across it, at distances in contact radii."""
+    along = np.where(np.isinf(radii), 1 + kappa / 4, 1.0)
+    across = np.where(np.isinf(radii), 1 + 3 * kappa / 4, 1 + kappa)
+    far = (radii > NEAR) & np.isfinite(radii)
+    rho = radii[far]
+    angle, root = np.arcsin(1 / rho), np.sqrt(rho**2 - 1)
+    a = (2 - rho**2) * angle + root
+    b = rho**2 * angle + (2 - rho**2) * root / rho**2
+    closed = rho**2 / 2 - 1 + a / np.pi
+    mean, split = (2 + kappa) * (np.pi - a) / (2 * np.pi), kappa * b / (4 * np.pi)
+    along[far] = (rho**2 * (4 + kappa) / 8 - mean + split) / closed
+    across[far] = (rho**2 * (4 + 3 * kappa) / 8 - mean - split) / closed
+    return along, across
 
 
 def _edge_normal(gap: Floats, cell_size: tuple[float, float]) -> Floats:
