@@ -27,6 +27,9 @@ SHORTER, MOST_HALVINGS = 0.3, 8
 #: Growth of the residual at which a step is shortened.
 WORSE = 2.0
 
+#: Relative difference of objectives that is rounding.
+ROUNDING = 1e-11
+
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
 
@@ -57,11 +60,19 @@ def solve_slip(
             )
             judged = _judged(problem, block, trial, found.motion + part * motion)
             convolutions += halving > 0
-            if judged.error < found.error or judged.objective <= found.objective:
+            if _is_better(judged, found):
                 break
             part *= SHORTER
         traction, found = trial, judged
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
+
+
+def _is_better(new: SlipResidual, old: SlipResidual) -> bool:
+    """True if the objective falls, or the residual where it differs by rounding only."""
+    change = new.objective - old.objective
+    if abs(change) > ROUNDING * abs(old.objective):
+        return change < 0
+    return new.error < old.error
 
 
 def _judged(
