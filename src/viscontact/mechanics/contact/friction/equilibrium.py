@@ -21,11 +21,11 @@ from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_re
 #: Newton's steps of one solve.
 MAX_STEPS = 60
 
-#: Part by which a Newton step is shortened where it makes the residual larger, and how often.
-SHORTER, MOST_HALVINGS = 0.3, 8
+#: Parts of a Newton step that are tried until one lowers the objective.
+PARTS = (1.0, 0.3, 0.09)
 
-#: Growth of the residual at which a step is shortened.
-WORSE = 2.0
+#: Part that is taken where none does, in turn: so the slip set does not go around in circles.
+FALLBACKS = (1.0, 0.3)
 
 #: Relative difference of objectives that is rounding.
 ROUNDING = 1e-11
@@ -46,23 +46,22 @@ def solve_slip(
     slips = on_circle(start, problem.bound)
     traction = balanced(start, problem.bound, shift, problem.constraints, slips)
     found = _judged(problem, block, traction)
-    iterations, convolutions = 0, 1
+    iterations, convolutions, failures = 0, 1, 0
     for _ in range(MAX_STEPS):
         if found.error <= tolerance:
             break
-        step, motion, slips, spent = newton_step(problem, block, traction, found, tolerance)
-        iterations += spent
-        convolutions += spent + 1
-        part = 1.0
-        for halving in range(MOST_HALVINGS + 1):
-            trial = balanced(
-                traction + part * step, problem.bound, shift, problem.constraints, slips
-            )
-            judged = _judged(problem, block, trial, found.motion + part * motion)
-            convolutions += halving > 0
+        step = newton_step(problem, block, traction, found, tolerance)
+        iterations += step.iterations
+        convolutions += step.iterations + 1
+        for part in (*PARTS, FALLBACKS[failures % len(FALLBACKS)]):
+            trial = traction + part * step.traction
+            trial = balanced(trial, problem.bound, shift, problem.constraints, step.slips)
+            judged = _judged(problem, block, trial, found.motion + part * step.motion)
+            convolutions += 1
             if _is_better(judged, found):
                 break
-            part *= SHORTER
+        else:
+            failures += 1
         traction, found = trial, judged
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
 

@@ -17,11 +17,13 @@ from viscontact.mechanics.contact.friction.problem import (
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
 
-#: Part of the residual that the conjugate gradients leave.
-FORCING = 3e-2
+#: Part of the residual that the conjugate gradients leave, and the largest near the solution.
+FORCING, LEAST_FORCING = 3e-2, 0.3
 
 #: Search directions of one step.
 MAX_DIRECTIONS = 120
+
+TINY = float(np.finfo(np.float64).tiny)
 
 #: Displacement of a cell by its own unit traction, over the cell's edge [-].
 OWN = 1.1
@@ -140,9 +142,24 @@ class ConstrainedSteps:
         motion = self._inverse @ self._resultants(step)
         return step - self._moved(motion), motion * self._scales
 
+    def largest_left(self, residual: Singles, motion: Floats) -> float:
+        """Largest component of a residual without a motion [-]."""
+        rigid = self._shift.field(motion).astype(np.float32)
+        return float(np.abs(residual - self._system.projected(rigid)).max())
+
     def _moved(self, coefficients: Floats) -> Singles:
         pairs = zip(coefficients.astype(np.float32), self._motions, strict=True)
         return np.asarray(sum(coefficient * motion for coefficient, motion in pairs))
+
+
+@dataclass(frozen=True, eq=False)
+class NewtonStep:
+    """Step of Newton's method, and the search directions that it took."""
+
+    traction: Floats  # change of the traction [Pa]
+    motion: Floats  # change of the motion [m, m, rad]
+    slips: Bools  # cells that are taken to slip
+    iterations: int
 
 
 def newton_step(
@@ -151,8 +168,8 @@ def newton_step(
     traction: Floats,
     found: SlipResidual,
     tolerance: float,
-) -> tuple[Floats, Floats, Bools, int]:
-    """Changes of traction [Pa] and motion, cells taken to slip, and number of search directions."""
+) -> NewtonStep:
+    """Step from a traction with its residual."""
     own = OWN * problem.compliance * block.edge + (problem.entry[0] + problem.entry[2]) / 2
     there, directions = turned(problem, traction, found.slip, found.directions, own)
     system = NewtonSystem(problem, block, directions)
@@ -163,17 +180,27 @@ def newton_step(
     steps = ConstrainedSteps(system)
     # Turned cells and resultants first, of which conjugate gradients change nothing.
     lacking = problem.constraints.lacking(block.shift.resultants(there))
-    step = steps.restoring(lacking / largest)
+    first = steps.restoring(lacking / largest)
     change = ((there - traction) / largest).astype(np.float32)
-    if step.any() or change.any():
-        residual = residual - system.apply(step) - system.without_curvature(change)
+    if first.any() or change.any():
+        residual = residual - system.apply(first) - system.without_curvature(change)
+    least = max(FORCING, min(LEAST_FORCING, tolerance / max(found.error, TINY)))
+    step, motion, iterations = conjugate_gradients(system, steps, residual, least)
+    # In double precision, as cells that slip must not leave their circles by rounding.
+    moved = directions.projected((first + step) * float(largest)) + (there - traction)
+    return NewtonStep(moved, -motion * (largest * system.unit), directions.slips, iterations)
+
+
+def conjugate_gradients(
+    system: NewtonSystem, steps: ConstrainedSteps, residual: Singles, least: float
+) -> tuple[Singles, Floats, int]:
+    """Step for a residual up to a part `least` of it, the motion taken out, and the directions."""
+    step = np.zeros(residual.shape, np.float32)
     conjugate, motion = steps.preconditioned(residual)
     first = energy = _dot(residual, conjugate)
-    direction = conjugate
-    least = max(FORCING, min(0.3, tolerance / max(found.error, 1e-300)))
-    iterations = 0
+    direction, iterations = conjugate, 0
     while iterations < MAX_DIRECTIONS and (
-        energy > least**2 * first or _largest_left(steps, residual, motion) > least
+        energy > least**2 * first or steps.largest_left(residual, motion) > least
     ):
         image = system.apply(direction)
         ratio = np.float32(energy / _dot(direction, image))
@@ -183,16 +210,9 @@ def newton_step(
         before, energy = energy, _dot(residual, conjugate)
         direction = conjugate + np.float32(energy / before) * direction
         iterations += 1
-    # In double precision, as cells that slip must not leave their circles by rounding.
-    found_step = directions.projected(step * float(largest)) + (there - traction)
-    return found_step, -motion * (largest * system.unit), directions.slips, iterations
-
-
-def _largest_left(steps, residual, motion):
-    s = steps._system
-    return float(
-        np.abs(residual - s.projected(s.block.shift.field(motion).astype(np.float32))).max()
-    )
+        if not energy > 0:  # nothing is left in single precision
+            break
+    return step, motion, iterations
 
 
 def _dot(one: Singles, other: Singles) -> float:
