@@ -123,6 +123,8 @@ class FrictionalContact:
         self._memory: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
         self._references = [np.zeros(shape) for _ in plans]
         self._state = SlipState.at_first(run.open_gap)
+        #: Change of the traction [Pa] in the last step, and its duration [s].
+        self._trend = np.zeros(shape), 0.0
 
     def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
         """Solve the tractions at the end of a step; return scalars and fields of its state."""
@@ -139,6 +141,7 @@ class FrictionalContact:
             found = None
             after = self._apart(solution, constraints)
         self._accept(responses, after.traction)
+        self._trend = after.traction - before.traction, step.duration
         self._state = after
         return self._scalars(step, before, found) | self._fields(found, region if found else None)
 
@@ -185,12 +188,19 @@ class FrictionalContact:
             constraints,
             LEAST_SHIFT * self._coefficient * largest,
         )
-        block, start = self._domain.block(region, kappa), state.traction[:, *cut]
+        block, start = self._domain.block(region, kappa), self._guess(step)[:, *cut]
         tolerance = self._run.problem.tolerance
         found = solve_slip(problem, block, start, tolerance=tolerance)
         if not found.converged:
             raise ConvergenceError(_not_converged(step, found, constraints, problem, block))
         return found
+
+    def _guess(self, step: TimeStep) -> Floats:
+        """Traction before the step, with its trend where the load goes on smoothly [Pa]."""
+        trend, duration = self._trend
+        if not step.smooth or duration == 0:
+            return self._state.traction
+        return self._state.traction + trend * (step.duration / duration)
 
     def _each(
         self, responses: list[HereditaryResponse]
@@ -338,6 +348,7 @@ class FrictionalContact:
             return found
 
         self._references = [grown(reference) for reference in self._references]
+        self._trend = grown(self._trend[0]), self._trend[1]
         for memory in self._memory:
             memory.map_fields(grown)
 
@@ -347,6 +358,7 @@ class FrictionalContact:
             "memory": [memory.restart_data() for memory in self._memory],
             "references": self._references,
             "state": vars(self._state),
+            "trend": list(self._trend),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -355,6 +367,8 @@ class FrictionalContact:
             memory.restore(data)
         self._references = list(restart_data["references"])
         self._state = SlipState(**restart_data["state"])
+        trend, duration = restart_data["trend"]
+        self._trend = trend, duration
 
 
 def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
