@@ -61,6 +61,14 @@ class Transforms(ABC):
         """Cosine transform (DCT-II) of a real field, in place."""
 
     @abstractmethod
+    def sine_forward(self, field: Field, axis: int) -> Field:
+        """Sine transform (DST-II) of a real field, in place."""
+
+    @abstractmethod
+    def sine_inverse(self, spectrum: Field, axis: int) -> Field:
+        """Real field of a sine transform, in place."""
+
+    @abstractmethod
     def even_forward(self, field: Field, axis: int) -> Field:
         """Cosine transform (DCT-I) of half an even real field with both of its ends, in place."""
 
@@ -118,6 +126,18 @@ class SciPyTransforms(Transforms):
             scipy.fft.idct(spectrum, 2, axis=axis, overwrite_x=True, workers=self.threads)
         )
 
+    def sine_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.sine_forward`."""
+        return np.asarray(
+            scipy.fft.dst(field, 2, axis=axis, overwrite_x=True, workers=self.threads)
+        )
+
+    def sine_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.sine_inverse`."""
+        return np.asarray(
+            scipy.fft.idst(spectrum, 2, axis=axis, overwrite_x=True, workers=self.threads)
+        )
+
 
 class DuccTransforms(Transforms):
     """Transforms by `ducc0`, which allocates no memory for fields."""
@@ -167,6 +187,16 @@ class DuccTransforms(Transforms):
     def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
         """See `Transforms.cosine_inverse`."""
         ducc0.fft.dct(spectrum, type=3, axes=(axis,), inorm=2, out=spectrum, nthreads=self.threads)
+        return spectrum
+
+    def sine_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.sine_forward`."""
+        ducc0.fft.dst(field, type=2, axes=(axis,), out=field, nthreads=self.threads)
+        return field
+
+    def sine_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.sine_inverse`."""
+        ducc0.fft.dst(spectrum, type=3, axes=(axis,), inorm=2, out=spectrum, nthreads=self.threads)
         return spectrum
 
 

@@ -57,6 +57,15 @@ class TangentialLoad(ABC):
         """Times at which the load jumps, increasing [s]."""
 
     @property
+    def acts(self) -> tuple[bool, bool, bool]:
+        """True for x, y and the rotation if there is a force, torque or motion at any time."""
+        along_x, along_y, turning = (
+            any(getattr(self, name) is not None and np.any(getattr(self, name)) for name in pair)
+            for pair in zip(FORCES, MOTIONS, strict=True)
+        )
+        return along_x, along_y, turning
+
+    @property
     def longest_step(self) -> float:
         """Longest step on which the load is nearly linear [s]; inf if it is linear."""
         return math.inf

@@ -135,10 +135,10 @@ def shear_preconditioner(
 class Parts:
     """Parts of a surface's response to shear: that of 1/r, and that by Poisson's ratio."""
 
-    def __init__(self, direct: ShearFilter, poisson: ShearFilter) -> None:
+    def __init__(self, direct: Any, poisson: Any) -> None:
         self._both = direct, poisson
 
-    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> ShearFilter:
+    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> Any:
         """Operator of given weights of both parts."""
         found = self._both[0].sum_of(self._both, (direct, poisson))
         return found.in_single() if single else found

@@ -29,7 +29,7 @@ from viscontact.mechanics.contact.friction.problem import (
     SlipProblem,
     SlipSolution,
 )
-from viscontact.mechanics.contact.friction.region import Region, ShearDomain
+from viscontact.mechanics.contact.friction.region import Region, ShearDomain, ShearSymmetry
 from viscontact.mechanics.contact.friction.rigid_shift import ShiftConstraints
 from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
@@ -138,20 +138,22 @@ class FrictionalContact:
             after = self._after(solution, found, constraints, region)
         else:
             self._refuse_force_apart(step, constraints)
-            found = None
+            found = region = None
             after = self._apart(solution, constraints)
         self._accept(responses, after.traction)
         self._trend = after.traction - before.traction, step.duration
         self._state = after
-        return self._scalars(step, before, found) | self._fields(found, region if found else None)
+        return self._scalars(step, before, found, region) | self._fields(found, region)
 
     def _constraints(self, point: TangentialPoint) -> ShiftConstraints:
         """Constraints of the step's change of the motion."""
-        periodic = self._run.grid.periodic
+        periodic, symmetry = self._run.grid.periodic, _symmetry_of(self._run)
         motions = list(point.motions)
         if any(periodic):  # a body without end does not turn
             motions[2] = 0.0
         free = np.array([motion is None for motion in motions])
+        if symmetry is not None:  # what does not act is zero
+            free &= symmetry.modes
         forces = np.array([0.0 if force is None else force for force in point.forces])
         there = np.array([0.0 if motion is None else motion for motion in motions])
         change = np.where(free, 0.0, there - self._state.motion)
@@ -174,17 +176,17 @@ class FrictionalContact:
             if change.any():
                 past += parts.sum_of(term.direct, term.poisson).apply(change)
         compliance, kappa = self._new(responses)
-        state, pressure = self._state, solution.pressure[cut]
+        state, pressure = self._state, solution.pressure
         entry = entry_compliance(
-            *(pressure, state.pressure[cut], state.gap[cut], self._run.grid.cell_size, kappa),
+            *(pressure, state.pressure, state.gap, self._run.grid.cell_size, kappa),
             plane=not self._run.grid.has_datum,
         )
         largest = float(np.abs(solution.displacement).max())
         problem = SlipProblem(
-            self._coefficient * pressure,
+            self._coefficient * pressure[cut],
             past,
             compliance,
-            entry,
+            entry[:, *cut],
             constraints,
             LEAST_SHIFT * self._coefficient * largest,
         )
@@ -223,18 +225,17 @@ class FrictionalContact:
         region: Region,
     ) -> SlipState:
         """State after a step in contact."""
-        before, pressure, cut = self._state, solution.pressure, region.cut
-        traction = np.zeros(before.traction.shape)
-        traction[:, *cut] = found.traction
-        moved = np.zeros(before.slip.shape)
-        moved[:, *cut] = found.slip
+        before, pressure = self._state, solution.pressure
+        traction, moved = (
+            self._domain.spread(region, each) for each in (found.traction, found.slip)
+        )
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
         mean = self._coefficient * (before.pressure + pressure) / 2
         lost = mean * np.hypot(*moved)
         shift = self._domain.shift(region)
         forces = shift.resultants(found.traction)
-        carried = self._coefficient * float(pressure.sum()) * shift.cell_area
+        carried = self._coefficient * float(solution.resultants[0])
         arms = np.array([1.0, 1.0, constraints.arm])
         # What rounding leaves of symmetric loads is none.
         forces[np.abs(forces) < ROUNDING * carried * arms] = 0.0
@@ -284,14 +285,21 @@ class FrictionalContact:
             )
 
     def _scalars(
-        self, step: TimeStep, before: SlipState, found: SlipSolution | None
+        self,
+        step: TimeStep,
+        before: SlipState,
+        found: SlipSolution | None,
+        region: Region | None,
     ) -> dict[str, float]:
         """Scalars at the end of a step, as in the result."""
         after, area = self._state, self._run.grid.cell_area
         has_datum = self._run.grid.has_datum
         motion = after.motion if has_datum else np.full(3, math.nan)
-        sticks = 0 if found is None else int(np.count_nonzero(found.state == 1))
-        touches = 0 if found is None else int(np.count_nonzero(found.state))
+        sticks, touches = 0, 0
+        if found is not None and region is not None:
+            count = self._domain.shift(region).cell_area / area  # with mirror images
+            sticks = round(count * np.count_nonzero(found.state == 1))
+            touches = round(count * np.count_nonzero(found.state))
         lost, stiffness = after.heat - before.heat, self._stiffness(before)
         return {
             "tangential_force_x": float(after.forces[0]),
@@ -322,7 +330,7 @@ class FrictionalContact:
         after = self._state
         state = np.zeros(after.work.shape, np.int8)
         if found is not None and region is not None:
-            state[region.cut] = found.state
+            state = self._domain.spread(region, found.state.astype(np.int8))
         fields = {
             "traction_x": after.traction[0],
             "traction_y": after.traction[1],
@@ -380,7 +388,16 @@ def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
 
 
 def _domain_of(run: RunSetup) -> ShearDomain:
-    return ShearDomain(run.grid, transforms_by(run.transforms, run.threads))
+    return ShearDomain(run.grid, transforms_by(run.transforms, run.threads), _symmetry_of(run))
+
+
+def _symmetry_of(run: RunSetup) -> ShearSymmetry | None:
+    """Symmetry of the tractions, if the normal contact has both mirror planes and one load acts."""
+    load = run.problem.tangential
+    acting = [mode for mode in range(3) if load is not None and load.acts[mode]]
+    if not all(run.mirrored) or len(acting) > 1:
+        return None
+    return ShearSymmetry(acting[0] if acting else 0)
 
 
 def _not_converged(

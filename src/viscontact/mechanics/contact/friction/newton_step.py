@@ -124,7 +124,9 @@ class ConstrainedSteps:
         self._scales = np.array([1.0, 1.0, 1 / constraints.arm])
         self._motions = [
             system.preconditioned(system.projected(self._shift.field(unit).astype(np.float32)))
-            for unit in np.diag(self._scales)
+            if free
+            else np.zeros(system.normal.shape, np.float32)
+            for unit, free in zip(np.diag(self._scales), constraints.free, strict=True)
         ]
         gram = np.array([self._resultants(motion) for motion in self._motions])
         self._inverse = pseudo_inverse((gram + gram.T) / 2, constraints.free, 1.0)

@@ -9,7 +9,10 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.mechanics.contact.friction.discs import on_circle
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
+from viscontact.mechanics.halfspace.mirrored_shear import MirroredShearFilter
 from viscontact.mechanics.halfspace.shear_filter import ShearFilter
+
+AnyShearFilter = ShearFilter | MirroredShearFilter
 
 #: Traction that would hold a cell, over what friction carries, at which it is turned.
 FAR_BEYOND = 1.5
@@ -47,9 +50,9 @@ class SlipProblem:
 class ShearBlock:
     """Operators of a block of cells."""
 
-    convolution: ShearFilter  # T, traction to displacement per unit compliance
-    search: ShearFilter  # the same in single precision
-    preconditioner: ShearFilter
+    convolution: AnyShearFilter  # T, traction to displacement per unit compliance
+    search: AnyShearFilter  # the same in single precision
+    preconditioner: AnyShearFilter
     shift: RigidShift
     edge: float  # longer edge of a cell [m]
 

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from typing import Any
+
 import numpy as np
 
-from viscontact.backend.arrays import Bools
+from viscontact.backend.arrays import Bools, Field
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.contact.friction.problem import ShearBlock
+from viscontact.mechanics.contact.friction.problem import AnyShearFilter, ShearBlock
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift
+from viscontact.mechanics.halfspace.mirrored_shear import (
+    Evenness,
+    mirrored_shear_convolution,
+    mirrored_shear_preconditioner,
+)
 from viscontact.mechanics.halfspace.shear_filter import (
     Parts,
     periodic_shear_convolution,
@@ -42,11 +49,33 @@ class Region:
         return self.rows[1] - self.rows[0], self.columns[1] - self.columns[0]
 
 
-class ShearDomain:
-    """Half-spaces under shear on a grid, with operators on regions, which are kept."""
+@dataclass(frozen=True)
+class ShearSymmetry:
+    """Symmetry across x = 0 and y = 0 of tractions under one force, or under a torque."""
 
-    def __init__(self, grid: Grid, transforms: Transforms) -> None:
-        self.grid, self._transforms = grid, transforms
+    mode: int  # 0 and 1 for a force along x and y, 2 for a torque
+
+    @property
+    def even(self) -> Evenness:
+        """True along x and along y if the component x is even there; y is odd where it is not."""
+        return self.mode != 1, self.mode == 0
+
+    @property
+    def modes(self) -> tuple[bool, bool, bool]:
+        """Motions and resultants that are not zero."""
+        return self.mode == 0, self.mode == 1, self.mode == 2
+
+
+class ShearDomain:
+    """Half-spaces under shear on a grid, with operators on regions, which are kept.
+
+    With a symmetry, regions are of the quarter with positive coordinates.
+    """
+
+    def __init__(
+        self, grid: Grid, transforms: Transforms, symmetry: ShearSymmetry | None = None
+    ) -> None:
+        self.grid, self._transforms, self._symmetry = grid, transforms, symmetry
         self._parts: dict[tuple[int, int], Parts] = {}
         self._blocks: dict[tuple[Region, float], ShearBlock] = {}
 
@@ -58,7 +87,32 @@ class ShearDomain:
                 zip(self.grid.shape, self.grid.periodic, strict=True)
             )
         ]
-        return Region(*spans)
+        if self._symmetry is None:
+            return Region(*spans)
+        half_x, half_y = (
+            (count // 2, max(span[1], count - span[0]))
+            for count, span in zip(self.grid.shape, spans, strict=True)
+        )
+        return Region(half_x, half_y)
+
+    def spread(self, region: Region, fields: Field) -> Field:
+        """Fields of a region on the whole grid, 0 elsewhere; components x and y, or a scalar."""
+        rows, columns = region.cut
+        whole = np.zeros((*fields.shape[:-2], *self.grid.shape), fields.dtype)
+        whole[..., rows, columns] = fields
+        if self._symmetry is None:
+            return whole
+        for axis in (-2, -1):
+            half = self.grid.shape[axis] // 2
+            index = [slice(None)] * whole.ndim
+            index[axis] = slice(half, None)
+            mirror = np.flip(whole[tuple(index)], axis)
+            index[axis] = slice(0, half)
+            if fields.ndim == 3:
+                signs = (1, -1) if self._symmetry.even[axis] else (-1, 1)
+                mirror = mirror * np.array(signs)[:, None, None]
+            whole[tuple(index)] = mirror
+        return whole
 
     def parts(self, region: Region) -> Parts:
         """Parts of the response on a region."""
@@ -75,9 +129,7 @@ class ShearDomain:
                 key: ShearBlock(
                     parts.sum_of(1.0, kappa),
                     parts.sum_of(1.0, kappa, single=True),
-                    shear_preconditioner(
-                        region.shape, cell_size, kappa, transforms=self._transforms
-                    ),
+                    self._preconditioner(region.shape, kappa),
                     self.shift(region),
                     max(cell_size) if min(self.grid.shape) > 1 else min(cell_size),
                 )
@@ -88,10 +140,21 @@ class ShearDomain:
         """Rigid motions over a region, about the origin."""
         rows, columns = region.cut
         x, y = self.grid.x[rows, None], self.grid.y[None, columns]
-        return RigidShift(x, y, self.grid.cell_area)
+        if self._symmetry is None:
+            return RigidShift(x, y, self.grid.cell_area)
+        return RigidShift(x, y, 4 * self.grid.cell_area, self._symmetry.modes)
+
+    def _preconditioner(self, shape: tuple[int, int], kappa: float) -> AnyShearFilter:
+        options: Any = {"transforms": self._transforms}
+        if self._symmetry is None:
+            return shear_preconditioner(shape, self.grid.cell_size, kappa, **options)
+        even = self._symmetry.even
+        return mirrored_shear_preconditioner(shape, self.grid.cell_size, kappa, even, **options)
 
     def _made(self, shape: tuple[int, int]) -> Parts:
         grid, options = self.grid, {"transforms": self._transforms}
+        if self._symmetry is not None:
+            shape = 2 * shape[0], 2 * shape[1]
         if all(grid.periodic):
             return periodic_shear_convolution(shape, grid.cell_size, **options)
         if any(grid.periodic):
@@ -99,6 +162,8 @@ class ShearDomain:
         else:
             size = (shape[0] * grid.cell_size[0], shape[1] * grid.cell_size[1])
             tables = shear_tables(Grid(shape, size))
+        if self._symmetry is not None:
+            return mirrored_shear_convolution(tables, self._symmetry.even, **options)
         return shear_convolution(tables, (grid.periodic[0], grid.periodic[1]), **options)
 
 

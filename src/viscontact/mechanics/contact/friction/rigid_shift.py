@@ -15,7 +15,8 @@ class RigidShift:
 
     x: Floats  # centres of the cells from the axis of rotation, shape (nx, 1) [m]
     y: Floats  # shape (1, ny) [m]
-    cell_area: float  # [m²]
+    cell_area: float  # with that of mirror images [m²]
+    modes: tuple[bool, bool, bool] = (True, True, True)  # motions that cells and images have
 
     def field(self, motion: Numbers) -> Floats:
         """Displacement of the cells by a motion [m], shape (2, nx, ny)."""
@@ -30,7 +31,8 @@ class RigidShift:
         along_x, along_y = (part.astype(np.float64, copy=False) for part in traction)
         torque = np.einsum("ij,i->", along_y, self.x[:, 0])
         torque -= np.einsum("ij,j->", along_x, self.y[0])
-        return np.array([along_x.sum(), along_y.sum(), torque]) * self.cell_area
+        sums = np.array([along_x.sum(), along_y.sum(), torque])
+        return np.where(self.modes, sums * self.cell_area, 0.0)
 
     def gram(self, xx: Numbers, xy: Numbers, yy: Numbers) -> Floats:
         """Sums over cells of the three motions with weights, a symmetric matrix for each cell."""
