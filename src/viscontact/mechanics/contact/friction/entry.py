@@ -44,6 +44,8 @@ def entry_compliance(  # noqa: PLR0913, PLR0917
     contact.
     """
     enters = (pressure > 0) & (before <= 0) & np.isfinite(gap)
+    if not enters.any():
+        return np.zeros((3, *gap.shape))
     compliance = np.divide(gap, pressure, out=np.zeros(gap.shape), where=enters)
     along, across = np.ones(gap.shape), np.full(gap.shape, 1 + kappa)
     if not plane:

@@ -28,11 +28,16 @@ class RigidShift:
 
     def resultants(self, traction: Numbers) -> Floats:
         """Forces along x and y [N] and torque about the axis [N m] of a traction."""
-        along_x, along_y = (part.astype(np.float64, copy=False) for part in traction)
-        torque = np.einsum("ij,i->", along_y, self.x[:, 0])
-        torque -= np.einsum("ij,j->", along_x, self.y[0])
-        sums = np.array([along_x.sum(), along_y.sum(), torque])
-        return np.where(self.modes, sums * self.cell_area, 0.0)
+        along_x, along_y = traction
+        found = np.zeros(3)
+        if self.modes[0]:
+            found[0] = along_x.sum(dtype=np.float64)
+        if self.modes[1]:
+            found[1] = along_y.sum(dtype=np.float64)
+        if self.modes[2]:
+            found[2] = self.x[:, 0] @ along_y.sum(axis=1, dtype=np.float64)
+            found[2] -= self.y[0] @ along_x.sum(axis=0, dtype=np.float64)
+        return found * self.cell_area
 
     def gram(self, xx: Numbers, xy: Numbers, yy: Numbers) -> Floats:
         """Sums over cells of the three motions with weights, a symmetric matrix for each cell."""
@@ -67,6 +72,11 @@ def pseudo_inverse(matrix: Floats, free: Bools, arm: float) -> Floats:
     """Inverse of a matrix of the three motions on its free part, of a length for rotations [m]."""
     # In units in which a rotation counts like a shift; directions that cells do not determine (all
     # slip, or there is one cell only) are left out.
+    if np.count_nonzero(free) == 1:
+        (only,) = np.flatnonzero(free)
+        found, value = np.zeros((3, 3)), float(matrix[only, only])
+        found[only, only] = 1 / value if value > 0 else 0.0
+        return found
     units = np.where(free, [1.0, 1.0, 1 / arm], 0.0)
     scaled = matrix * np.outer(units, units)
     return np.asarray(np.linalg.pinv(scaled, rcond=1e-10, hermitian=True) * np.outer(units, units))
