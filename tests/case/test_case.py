@@ -407,6 +407,8 @@ def test_schema_names_every_key_and_shows_units() -> None:
     assert set(schema["properties"]) == {
         *("title", "indenter", "material", "indenter_material", "load", "time", "grid", "motion"),
         *("output", "tolerance", "report", "allowable", "temperature", "leakage"),
+        *("output", "tolerance", "report", "allowable", "temperature"),
+        *("friction", "tangential"),
     }
     radius = schema["$defs"]["Sphere"]["properties"]["radius"]
     assert radius["examples"] == ["5 mm"]

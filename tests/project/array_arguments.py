@@ -106,6 +106,15 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "TabulatedShift": (
         {"temperatures": [290.0, 300.0], "factors": [3.0, 1.0], "vertical": [0.9, 1.0]},
     ),
+    "TangentialHistory": (
+        {
+            **{"times": [0.0, 1.0, 2.0], "force_x": LINE, "force_y": LINE, "torque": LINE},
+        },
+        {
+            **{"times": [0.0, 1.0, 2.0], "displacement_x": LINE, "displacement_y": LINE},
+            **{"rotation": LINE},
+        },
+    ),
     "TemperatureHistory": ({"times": [0.0, 1.0, 2.0], "temperature": [290.0, 300.0, 310.0]},),
     "Travel": ({"times": [0.0, 1.0, 2.0], "x": LINE, "y": LINE},),
     "clustered_times": ({"corners": [0.0, 1.0], "count": 4},),

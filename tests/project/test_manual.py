@@ -134,7 +134,8 @@ def test_the_reference_of_case_files_lists_every_key() -> None:
         # Each kind has its own place, under the words that the schema has for it.
         assert section in page or section == schema["description"], section
     for kind in ("shape: roller", "law: creep-series", "kind: harmonic", "kind: chamfer"):
-        sections = 2 if kind == "kind: harmonic" else 1  # of the load and of the temperature
+        # Of the load, of the temperature and of the tangential load.
+        sections = 3 if kind == "kind: harmonic" else 1
         assert page.count(f"# `{kind}`\n") == sections
         assert page.count(f"[`{kind}`](#case-") == 1  # in the list of the section's kinds
 

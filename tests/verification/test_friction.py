@@ -162,8 +162,13 @@ def test_elastic_bodies_do_not_depend_on_the_rate():
         elastic(), load, vc.TangentialHistory([0, 1, 2, 3], **points), 24, times=[0, 1, 2, 3]
     )
     other = states(
-        elastic(), slow, vc.TangentialHistory([0, 50, 60, 300], **points), 24, times=[0, 50, 60, 300]
+        elastic(),
+        slow,
+        vc.TangentialHistory([0, 50, 60, 300], **points),
+        24,
+        times=[0, 50, 60, 300],
     )
+    assert len(one) == 4
     for ours, theirs in zip(one, other, strict=True):
         for name in ("tangential_displacement_x", "tangential_displacement_y", "friction_heat"):
             assert getattr(ours, name) == close_to(getattr(theirs, name), rel=1e-9, abs=1e-18)
@@ -172,9 +177,7 @@ def test_elastic_bodies_do_not_depend_on_the_rate():
 def test_torsion_slides_at_lubkins_limit():
     """Lubkin 1951: at a large rotation all slides, under 3π/16 μ W a."""
     radius = hertz_radius(INSTANT)
-    (state,) = states(
-        elastic(0.3), vc.step(FORCE), later(rotation=1.0), 48, times=[1.0]
-    )
+    (state,) = states(elastic(0.3), vc.step(FORCE), later(rotation=1.0), 48, times=[1.0])
     assert state.torque == close_to(3 * np.pi / 16 * LIMIT * radius, rel=2e-3)
     assert state.slip_fraction == 1
 

@@ -14,11 +14,11 @@ from viscontact.case.aliases import aliases_of, known_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.document import Document, as_written
 from viscontact.case.errors import KeyPath, dotted
+from viscontact.case.friction import AnyTangential, FrictionSection
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
-from viscontact.case.friction import AnyTangential, FrictionSection
 from viscontact.case.loads.temperature import AnyTemperature
 from viscontact.case.materials.layers import AnyBody, Layer
 from viscontact.case.materials.material import AnyMaterial

@@ -238,12 +238,18 @@ SCALARS = {
     "friction_heat": _shear("J", "heat of friction since the start", "Friction heat", 35),
     "friction_power": _shear("W", "heat of friction over time", "Friction power", 36),
     "tangential_stiffness_x": _shear(
-        *("N/m", "change of the tangential force over that of the shift, along x"),
-        *("Tangential stiffness along x", 37, Place.NOWHERE),
+        "N/m",
+        "change of the tangential force over that of the shift, along x",
+        "Tangential stiffness along x",
+        37,
+        Place.NOWHERE,
     ),
     "tangential_stiffness_y": _shear(
-        *("N/m", "change of the tangential force over that of the shift, along y"),
-        *("Tangential stiffness along y", 38, Place.NOWHERE),
+        "N/m",
+        "change of the tangential force over that of the shift, along y",
+        "Tangential stiffness along y",
+        38,
+        Place.NOWHERE,
     ),
     "duality_gap": Variable(
         *("1", "bound of the energy of the error of the tractions"),
@@ -338,9 +344,7 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
-def scalars_with_error(
-    parts: Container[str] = (MOTION, FRICTION), over: str = "time"
-) -> list[str]:
+def scalars_with_error(parts: Container[str] = (MOTION, FRICTION), over: str = "time") -> list[str]:
     """Names of the scalars whose error is estimated, of contacts with some parts."""
     found = scalars_of(parts, over)
     return [name for name, variable in found.items() if variable.has_error]

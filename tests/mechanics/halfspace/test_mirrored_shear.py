@@ -54,8 +54,8 @@ def test_the_approximate_inverse_undoes_products_of_waves(even):
     sign = -1 if even[0] == even[1] else 1
     # The response to amplitudes (1, 0) of the components x and y.
     across_part = kappa * k[1] ** 2 / length**2, -sign * kappa * k[0] * k[1] / length**2
-    displacement = 2 / length * np.stack(
-        [(1 + across_part[0]) * patterns[0], across_part[1] * patterns[1]]
+    displacement = (
+        2 / length * np.stack([(1 + across_part[0]) * patterns[0], across_part[1] * patterns[1]])
     )
     inverse = mirrored_shear_preconditioner(shape, cell, kappa, even)
     found = inverse.apply(displacement)

@@ -130,8 +130,9 @@ class TangentialHistory(TangentialLoad):
         rotation: ArrayLike | None = None,
     ) -> None:
         instants = history_points.instants(times)
-        given = dict(zip(FORCES, (force_x, force_y, torque), strict=True))
-        given |= dict(zip(MOTIONS, (displacement_x, displacement_y, rotation), strict=True))
+        given: dict[str, Any] = {"force_x": force_x, "force_y": force_y, "torque": torque}
+        given |= {"displacement_x": displacement_x, "displacement_y": displacement_y}
+        given |= {"rotation": rotation}
         values: dict[str, Any] = {
             name: None
             if value is None
@@ -181,7 +182,7 @@ class TangentialHistory(TangentialLoad):
             )
             for time in self.kinks.tolist()
         ]
-        return self.kinks[np.array(changes)]
+        return np.asarray(self.kinks[np.array(changes)])
 
 
 @dataclass(frozen=True, kw_only=True)

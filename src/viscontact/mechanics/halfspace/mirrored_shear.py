@@ -87,9 +87,7 @@ class MirroredShearFilter:
         crossed = sign * xy[inner]
         found_x[shared_x] += crossed * y[shared_y]
         found_y[shared_y] += crossed * x[shared_x]
-        return np.stack(
-            [self._field(found_x, self._even, size), self._field(found_y, odd, size)]
-        )
+        return np.stack([self._field(found_x, self._even, size), self._field(found_y, odd, size)])
 
     def _spectrum(self, field: Numbers, even: Evenness, size: float) -> Numbers:
         """Transform of a field over a size, padded."""

@@ -182,8 +182,8 @@ def _wave_numbers(
     shape: tuple[int, int], cell_size: tuple[float, float]
 ) -> tuple[Floats, Floats, Floats]:
     """Wave numbers along x and y, and their lengths, in the order of the transform [1/m]."""
-    x: Floats = 2 * np.pi * np.fft.fftfreq(shape[0], cell_size[0])[:, None]
-    y = 2 * np.pi * np.fft.rfftfreq(shape[1], cell_size[1])[None, :]
+    x = np.asarray(2 * np.pi * np.fft.fftfreq(shape[0], cell_size[0]), np.float64)[:, None]
+    y = np.asarray(2 * np.pi * np.fft.rfftfreq(shape[1], cell_size[1]), np.float64)[None, :]
     length: Floats = np.hypot(x, y)
     return x, y, length
 

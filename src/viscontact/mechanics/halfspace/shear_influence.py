@@ -73,12 +73,13 @@ def shear_tables(grid: Grid) -> ShearTables:
     if grid.periodic[1]:
         turned = _periodic_tables(grid.shape[::-1], grid.cell_size[::-1], grid.size[0])
         return ShearTables(turned.direct.T, turned.along_y.T, turned.cross.T)
-    x, y = (np.arange(count) * cell for count, cell in zip(grid.shape, grid.cell_size, strict=True))
-    places = x[:, None], y[None, :]
+    cell_x, cell_y = grid.cell_size
+    x: Floats = np.arange(grid.shape[0], dtype=np.float64)[:, None] * cell_x
+    y: Floats = np.arange(grid.shape[1], dtype=np.float64)[None, :] * cell_y
     return ShearTables(
         influence_table(grid.shape, grid.cell_size),
-        along_coefficient(*places, grid.cell_size),
-        cross_coefficient(*places, grid.cell_size),
+        along_coefficient(x, y, grid.cell_size),
+        cross_coefficient(x, y, grid.cell_size),
     )
 
 
@@ -134,8 +135,8 @@ def _periodic_tables(
         period = dx
     offsets = np.arange(nx)
     # Of the nearer image; the coefficients are even along x, but Z, which is odd.
-    x = (np.minimum(offsets, nx - offsets) * dx)[:, None]
-    y = (np.arange(ny) * dy)[None, :]
+    x: Floats = np.minimum(offsets, nx - offsets).astype(np.float64)[:, None] * dx
+    y: Floats = np.arange(ny, dtype=np.float64)[None, :] * dy
     direct = periodic_influence_coefficient(x, y, (dx, dy), period, datum)
     images = max(IMAGES, math.ceil(IMAGES * dy / period))
     along_y, cross = _far_images(x, y, (dx, dy), period, images)

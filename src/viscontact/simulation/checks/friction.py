@@ -74,7 +74,8 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
 def check_grip(problem: Problem) -> None:
     """Refuse forces beyond what friction carries, with the time at which the body slides away."""
     load, tangential, friction = problem.contact_load, problem.tangential, problem.friction
-    assert tangential is not None and friction is not None  # checked by `check_friction`
+    assert tangential is not None  # checked by `check_friction`
+    assert friction is not None
     if load.control != "force":
         return
     end = problem.end

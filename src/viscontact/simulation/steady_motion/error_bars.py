@@ -10,8 +10,7 @@ import numpy as np
 
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.rim import Rim
-from viscontact.mechanics.state import ContactState
-from viscontact.mechanics.state import MOTION
+from viscontact.mechanics.state import MOTION, ContactState
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.resistance import Resistance

@@ -12,7 +12,7 @@ integral of q, and its value r_m before. A body without friction has `Frictionle
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -99,13 +99,14 @@ class SlipState:
                 return small.embed(field, large, beyond=beyond)
             return np.stack([small.embed(part, large, beyond=beyond) for part in field])
 
-        return SlipState(
-            *(embedded(each) for each in (self.traction, self.slip, self.work, self.pressure)),
-            embedded(self.gap, np.inf),
-            embedded(self.touched, False),
-            self.motion,
-            self.forces,
-            self.heat,
+        return replace(
+            self,
+            traction=embedded(self.traction),
+            slip=embedded(self.slip),
+            work=embedded(self.work),
+            pressure=embedded(self.pressure),
+            gap=embedded(self.gap, np.inf),
+            touched=embedded(self.touched, False),
         )
 
 
@@ -132,13 +133,14 @@ class FrictionalContact:
         point = self._load.at(step.time, side=step.side)
         constraints = self._constraints(point)
         before, pressure = self._state, solution.pressure
+        found: SlipSolution | None = None
+        region: Region | None = None
         if pressure.any():
             region = self._domain.region_of(before.touched | (pressure > 0))
             found = self._solved(step, solution, responses, constraints, region)
             after = self._after(solution, found, constraints, region)
         else:
             self._refuse_force_apart(step, constraints)
-            found = region = None
             after = self._apart(solution, constraints)
         self._accept(responses, after.traction)
         self._trend = after.traction - before.traction, step.duration

@@ -55,9 +55,7 @@ def under(forces=(0.0, 0.0, 0.0), motions=(None, None, None)) -> ShiftConstraint
     )
 
 
-def solved(
-    block, pressure, constraints, *, before=None, entry=None, start=None, tolerance=1e-8
-):
+def solved(block, pressure, constraints, *, before=None, entry=None, start=None, tolerance=1e-8):
     """Solution of a step of an elastic body from the traction before it."""
     nothing = np.zeros((2, *pressure.shape))
     past = nothing if before is None else -COMPLIANCE * block.convolution.apply(before)

@@ -29,7 +29,7 @@ from viscontact.backend.arrays import Bools, Floats
 NEAR = 1.001
 
 
-def entry_compliance(  # noqa: PLR0913, PLR0917
+def entry_compliance(
     pressure: Floats,
     before: Floats,
     gap: Floats,

@@ -72,17 +72,17 @@ class NewtonSystem:
         xx, xy, yy = self.entry
         x, y = self.normal
         tangent = yy * x * x - 2 * xy * x * y + xx * y * y + self.curvature
-        return np.where(self.directions.slips, tangent, (xx + yy) / 2)
+        return np.asarray(np.where(self.directions.slips, tangent, (xx + yy) / 2), np.float32)
 
     @cached_property
     def _share(self) -> Singles:
         """Root of the part of the half-space in the diagonal of each cell [-]."""
-        return (1 / np.sqrt(1 + self._diagonal / OWN)).astype(np.float32)
+        return np.asarray(1 / np.sqrt(1 + self._diagonal / OWN), np.float32)
 
     @cached_property
     def _local(self) -> Singles:
         """Inverse of the diagonal times the part that is not the half-space's [-]."""
-        return ((1 - self._share**2) / (self._diagonal + np.float32(OWN))).astype(np.float32)
+        return np.asarray((1 - self._share**2) / (self._diagonal + OWN), np.float32)
 
     def projected(self, fields: Singles) -> Singles:
         """Components along free directions."""
@@ -92,7 +92,7 @@ class NewtonSystem:
 
     def apply(self, step: Singles) -> Singles:
         """The matrix times a step along free directions [-]."""
-        return self.without_curvature(step) + self.curvature * step
+        return np.asarray(self.without_curvature(step) + self.curvature * step)
 
     def without_curvature(self, step: Singles) -> Singles:
         """Slip along free directions by a change of the traction [-]."""
@@ -105,8 +105,10 @@ class NewtonSystem:
 
     def preconditioned(self, residual: Singles) -> Singles:
         """Approximate inverse: of the half-space where it is soft, of the diagonal elsewhere."""
-        filtered = self.block.preconditioner.apply(self._share * residual)
-        found = self._share * filtered * np.float32(self.block.edge) + self._local * residual
+        filtered: Singles = self.block.preconditioner.apply(self._share * residual)
+        found: Singles = (
+            self._share * filtered * np.float32(self.block.edge) + self._local * residual
+        )
         return self.projected(found)
 
 
@@ -132,7 +134,7 @@ class ConstrainedSteps:
         self._inverse = pseudo_inverse((gram + gram.T) / 2, constraints.free, 1.0)
 
     def _resultants(self, fields: Singles) -> Floats:
-        return self._shift.resultants(fields) * self._scales
+        return np.asarray(self._shift.resultants(fields) * self._scales)
 
     def restoring(self, lacking: Floats) -> Singles:
         """Step with given resultants [N, N, N m]."""
@@ -189,7 +191,8 @@ def newton_step(
     least = max(FORCING, min(LEAST_FORCING, tolerance / max(found.error, TINY)))
     step, motion, iterations = conjugate_gradients(system, steps, residual, least)
     # In double precision, as cells that slip must not leave their circles by rounding.
-    moved = directions.projected((first + step) * float(largest)) + (there - traction)
+    along: Floats = (first + step).astype(np.float64) * largest
+    moved = directions.projected(along) + (there - traction)
     return NewtonStep(moved, -motion * (largest * system.unit), directions.slips, iterations)
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-
 from typing import Any
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Field
+from viscontact.backend.arrays import Bools, Numbers
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.problem import AnyShearFilter, ShearBlock
@@ -95,7 +94,7 @@ class ShearDomain:
         )
         return Region(half_x, half_y)
 
-    def spread(self, region: Region, fields: Field) -> Field:
+    def spread(self, region: Region, fields: Numbers) -> Numbers:
         """Fields of a region on the whole grid, 0 elsewhere; components x and y, or a scalar."""
         rows, columns = region.cut
         whole = np.zeros((*fields.shape[:-2], *self.grid.shape), fields.dtype)
