@@ -65,7 +65,7 @@ UREG = pint.UnitRegistry()
 OTHER_UNITS = {
     **{"s": ("ms", 1e-3), "m": ("um", 1e-6), "N": ("mN", 1e-3), "Pa": ("MPa", 1e6)},
     **{"1/Pa": ("1/GPa", 1e-9), "rad": ("mrad", 1e-3), "m/s": ("mm/s", 1e-3), "1": ("%", 1e-2)},
-    **{"rad/s": ("krad/s", 1e3), "K": ("mK", 1e-3)},
+    **{"rad/s": ("krad/s", 1e3), "K": ("mK", 1e-3), "N m": ("mN m", 1e-3)},
 }
 
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from viscontact.units.numbers import as_real, check_fields
+
+#: Largest coefficient of friction: larger ones are taken for percentages.
+LARGEST = 10.0
 
 
 @dataclass(frozen=True)
@@ -16,7 +20,7 @@ class Friction:
     Parameters
     ----------
     coefficient : float
-        Coefficient of friction μ, positive [-].
+        Coefficient of friction μ, positive, at most 10 [-].
     coupling : bool, optional
         False: normal contact does not feel tractions along the surface, and the surface does not
         move along itself under pressure. That is exact for two bodies of the same material, and for
@@ -25,7 +29,7 @@ class Friction:
     Raises
     ------
     ValueError
-        If the coefficient is not a positive number, or coupling is neither true nor false.
+        If the coefficient is not a positive number up to 10, or coupling is neither true nor false.
 
     Examples
     --------
@@ -37,20 +41,21 @@ class Friction:
     coupling: bool = True
 
     def __post_init__(self) -> None:
-        if isinstance(self.coefficient, str) and self.coefficient.strip().endswith("%"):
+        number = as_real(self.coefficient)
+        if isinstance(self.coefficient, str) or (number is not None and number > LARGEST):
             raise ValueError(
-                f"Friction: coefficient must be a plain number, got {self.coefficient!r}; write "
-                "0.3 for 30 %"
+                f"Friction: coefficient must be a plain number up to {LARGEST:g}, got "
+                f"{self.coefficient!r}; write 0.3 for 30 %"
             )
         check_fields(self, "coefficient")
         if not isinstance(self.coupling, bool | np.bool_):
             raise ValueError(f"Friction: coupling must be true or false, got {self.coupling!r}")
 
 
-def as_friction(given: Friction | float | None) -> Friction | None:
+def as_friction(given: Any) -> Friction | None:
     """Return the friction of an argument: a number is its coefficient."""
     if given is None or isinstance(given, Friction):
         return given
-    if as_real(given) is None:
+    if as_real(given) is None and not isinstance(given, str):
         raise ValueError(f"friction must be a Friction or a coefficient, got {given!r}")
     return Friction(given)

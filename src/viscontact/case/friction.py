@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 
 from viscontact.bodies import friction, loads
+from viscontact.bodies.friction import LARGEST
 from viscontact.bodies.loads import TangentialLoad
 from viscontact.bodies.loads.tangential import UNITS
 from viscontact.case.quantities import (
@@ -29,7 +30,7 @@ _Torque = Annotated[float, WithUnit("torque")]
 class FrictionSection(Section):
     """Coulomb friction between the bodies."""
 
-    coefficient: Annotated[float, Field(gt=0)] = Field(
+    coefficient: Annotated[float, Field(gt=0, le=LARGEST)] = Field(
         description="coefficient of friction", examples=[0.3]
     )
     coupling: bool = Field(

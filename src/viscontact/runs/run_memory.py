@@ -32,6 +32,10 @@ ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 #: and three of marks. With symmetry planes, those after a step count besides those before it.
 ARRAYS_OF_TRENDS = 2.375
 
+#: Arrays of the whole grid under friction: pairs of tractions, of their reference, trend and start,
+#: of slip and of the next state, and single ones; and those of each term of the law.
+ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 26.0, 2.0
+
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 FIELDS_OF_TERM = 7
 
@@ -52,6 +56,9 @@ def run_memory(run: RunSetup) -> float:
     fields += FIELDS_OF_TERM * len(run.other_terms)
     creeps = not run.problem.surface.creep.is_elastic
     whole = ARRAYS_OF_TRENDS * creeps * (1 + any(run.mirrored))
+    if run.problem.friction is not None:
+        kept_there = sum(plan.fields_kept for plan in run.shear_plans)
+        whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 

@@ -1,0 +1,148 @@
+"""Friction over the steps of a run: symmetry, grids that grow, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from closeness import close_to
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import prepare_run
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+RUBBER = vc.Material(vc.Zener(1e6, 5e5, 1e6), 0.5)
+GRID = vc.Grid((32, 32), (4e-3, 4e-3))
+BALL = vc.Sphere(0.01)
+SHAKEN = {
+    "x": vc.TangentialHistory([0.5, 1, 2], force_x=[0, 0.02, -0.02]),
+    "y": vc.TangentialHistory([0.5, 1, 2], displacement_y=[0, 2e-5, -1e-5]),
+    "torque": vc.TangentialHistory([0.5, 1, 2], rotation=[0, 2e-2, -1e-2]),
+}
+
+
+def march(load, tangential, times, material=RUBBER, grid=GRID, **given):
+    return list(
+        vc.march(BALL, material, load, grid, times, friction=0.3, tangential=tangential, **given)
+    )
+
+
+@pytest.mark.parametrize("name", SHAKEN)
+def test_a_quarter_of_a_symmetric_contact_is_enough(name):
+    """The same on cells of which one quarter is computed, and on a grid off the origin."""
+    times = [0.5, 1.0, 1.5, 2.0]
+    shifted = replace(GRID, centre=(GRID.cell_size[0], 0.0))
+    quarter = march(vc.step(0.1), SHAKEN[name], times)[-1]
+    whole = march(vc.step(0.1), SHAKEN[name], times, grid=shifted)[-1]
+    assert quarter.slip_fraction == close_to(whole.slip_fraction, rel=1e-9)
+    scale = quarter.peak_pressure
+    for field in ("traction_x", "traction_y"):
+        ours, theirs = getattr(quarter, field)[1:], getattr(whole, field)[:-1]
+        np.testing.assert_allclose(ours, theirs, atol=1e-4 * scale)
+    assert quarter.friction_heat == close_to(whole.friction_heat, rel=1e-4)
+
+
+def test_a_grid_that_grows_keeps_tractions_and_memory():
+    """An automatic grid, of one that holds the contact from the start."""
+    problem = Problem(
+        BALL,
+        RUBBER,
+        vc.ForceHistory([0, 0.1, 8], [0, 0.001, 0.3]),
+        vc.Grid((16, 16), (0.8e-3, 0.8e-3)),
+        vc.uniform_times(8.0, 16),
+        friction=vc.Friction(0.3),
+        tangential=vc.TangentialHistory([1, 2, 4, 8], force_x=[0, 0.004, 0.002, 0.02]),
+    )
+    small = prepare_run(problem)
+    growing = [state for state in March(_growing(small)) if state is not None]
+    wide = growing[-1].grid
+    assert wide.shape[0] > 16
+    fixed = march(problem.load, problem.tangential, problem.times, grid=wide)
+    for name in ("tangential_displacement_x", "friction_heat", "slip_fraction"):
+        assert getattr(growing[-1], name) == close_to(getattr(fixed[-1], name), rel=1e-4)
+
+
+def _growing(run):
+    """The run with a grid that is enlarged where the contact reaches its rim."""
+    return replace(run, problem=replace(run.problem, grid=None))
+
+
+def test_the_normal_contact_is_that_without_friction():
+    with_friction = march(vc.step(0.1), SHAKEN["x"], [0.5, 1.0, 2.0])
+    without = list(vc.march(BALL, RUBBER, vc.step(0.1), GRID, [0.5, 1.0, 2.0]))
+    # The tangential load has kinks of its own, at which there are steps: the times are the same.
+    np.testing.assert_allclose(with_friction[-1].pressure, without[-1].pressure, rtol=1e-4)
+    assert without[-1].traction_x is None
+
+
+def test_coupling_is_chosen_by_itself_where_it_cancels():
+    given = {"times": [1.0], "tangential": SHAKEN["x"], "load": vc.step(0.1)}
+    stiff = vc.Material(vc.Elastic(1e6), 0.3)
+    one = march(**given, material=stiff, indenter_material=vc.Material(vc.Elastic(1e6), 0.3))
+    assert one[0].slip_fraction > 0
+    with pytest.raises(ValueError, match=r"give Friction\(coefficient, coupling=False\)"):
+        march(**given, material=stiff)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"friction": 0.3}, "friction needs a tangential load"),
+        ({"tangential": SHAKEN["x"]}, "a tangential load needs friction"),
+        (
+            {"friction": 0.3, "tangential": SHAKEN["x"], "motion": vc.Travel([0, 1], y=[0, 1e-3])},
+            "moves over the surface",
+        ),
+        (
+            {"friction": 0.3, "tangential": vc.tangential_ramp(force_x=0.06, duration=1.0)},
+            "the body slides away at t = 500 ms: friction carries 30 mN",
+        ),
+    ],
+)
+def test_what_cannot_be_computed_is_refused_before_the_first_step(given, said):
+    with pytest.raises(ValueError, match=said):
+        vc.march(BALL, RUBBER, vc.step(0.1), GRID, [0.0, 1.0], **given)
+
+
+def test_layers_are_refused():
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
+    with pytest.raises(ValueError, match="bodies of layers are not supported under friction"):
+        march(vc.step(0.1), SHAKEN["x"], [1.0], material=body)
+
+
+@pytest.mark.parametrize(
+    ("tangential", "said"),
+    [
+        (vc.tangential_step(torque=1e-3), "a body without end does not turn"),
+        (vc.tangential_step(displacement_y=1e-6), "has no point at rest"),
+    ],
+)
+def test_a_line_contact_takes_forces_only(tangential, said):
+    grid = vc.Grid((1, 40), (1e-3, 6e-3), periodic=(True, False))
+    with pytest.raises(ValueError, match=said):
+        vc.march(
+            vc.Roller(0.01, 1.0),
+            RUBBER,
+            vc.step(0.1),
+            grid,
+            [1.0],
+            friction=0.3,
+            tangential=tangential,
+        )
+
+
+def test_a_body_that_slides_away_under_a_given_approach_ends_the_run():
+    tangential = vc.tangential_ramp(force_x=1.0, duration=1.0)
+    with pytest.raises(vc.ConvergenceError, match="the body slides away at t = "):
+        march(vc.step(approach=1e-5), tangential, [0.0, 0.5, 1.0])
+
+
+def test_a_force_without_contact_is_refused_with_its_time():
+    load = vc.ApproachHistory([0, 1, 1], [1e-5, 1e-5, -1e-5])
+    tangential = vc.tangential_step(force_x=1e-5)
+    with pytest.raises(vc.ConvergenceError, match=r"the bodies are apart at t = 1 s"):
+        march(load, tangential, [0.0, 1.0])
