@@ -96,7 +96,7 @@ class NewtonSystem:
 
     def without_curvature(self, step: Singles) -> Singles:
         """Slip along free directions by a change of the traction [-]."""
-        found: Singles = self.block.search.apply(step) / np.float32(self.block.edge)
+        found = np.asarray(self.block.search.apply(step) / self.block.edge, np.float32)
         x, y = step
         xx, xy, yy = self.entry
         found[0] += xx * x + xy * y
