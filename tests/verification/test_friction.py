@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
 
 import viscontact as vc
 from closeness import close_to
@@ -140,7 +142,7 @@ def test_a_clamped_stage_keeps_its_stick_zone():
         vc.step(approach=approach),
         vc.tangential_step(displacement_x=shift),
         40,
-        times=vc.uniform_times(2.0, 200),
+        times=vc.uniform_times(2.0, 100),
     )
     first, last = found[0], found[-1]
     # The relaxation function of the contact: G(t)/G(0).
@@ -219,3 +221,63 @@ def test_line_contact_sticks_after_cattaneo():
     assert np.isnan(state.tangential_displacement_y)
     stick = np.sqrt(1 - part)
     assert 1 - state.slip_fraction == close_to(stick, abs=0.03)
+
+
+@pytest.mark.parametrize(("stick", "torque"), [(0.9, 0.1763), (0.7, 0.4097), (0.5, 0.5286)])
+def test_the_twist_of_a_sphere_follows_lubkin(stick, torque):
+    """Lubkin 1951: the twist at a stick radius c a is 3 μ W/(4π G a²) (K - E)(k'), k'² = 1 - c²."""
+    radius, modulus = hertz_radius(INSTANT), 1 / (2 * INSTANT)
+    (state,) = states(
+        elastic(), vc.step(FORCE), later(torque=torque * LIMIT * radius), 64, times=[1.0]
+    )
+    squared = 1 - stick**2
+    twist = 3 * LIMIT / (4 * np.pi * modulus * radius**2) * (ellipk(squared) - ellipe(squared))
+    # The torques are rounded to four digits.
+    assert state.rotation == close_to(twist, rel=8e-4)
+    assert np.sqrt(1 - state.slip_fraction) == close_to(stick, abs=0.02)
+
+
+def test_a_jump_of_the_force_on_a_creeping_sphere():
+    """Partial slip of the instant compliance on the pressure of Lee and Radok (1960).
+
+    This pressure is a sum of those of flat punches of all radii s, h(s) ds/sqrt(s² - r²), with
+    h = 2 M(t - t(s)) s/(π R) and t(s) the time at which the contact had the radius s. By
+    Ciavarella's theorem (1998) the tractions are μ of those with s > c.
+    """
+    retardation, time, force = 10.0, 10.0, 1.5
+
+    def compliance(t):
+        return INSTANT + (LATE - INSTANT) * (1 - np.exp(-t / retardation))
+
+    def begun(s):
+        grown = 4 * s**3 / (3 * FORCE * RADIUS)
+        if grown <= INSTANT:
+            return 0.0
+        return -retardation * np.log(1 - (grown - INSTANT) / (LATE - INSTANT))
+
+    def density(s):
+        t, relaxation = time - begun(s), retardation * INSTANT / LATE
+        modulus = 1 / LATE + (1 / INSTANT - 1 / LATE) * np.exp(-t / relaxation)
+        return 2 * modulus * s / (np.pi * RADIUS)
+
+    edge = (3 * FORCE * RADIUS * compliance(time) / 4) ** (1 / 3)
+
+    def carried(c):
+        points = [hertz_radius(INSTANT)] if c < hertz_radius(INSTANT) else None
+        return quad(lambda s: MU * 2 * np.pi * s * density(s), c, edge, points=points)[0]
+
+    assert carried(0.0) == close_to(LIMIT, rel=1e-6)  # of Lee and Radok: the whole force
+    stick = brentq(lambda c: carried(c) - force, 0.0, edge)
+    shift = MU * np.pi * INSTANT * quad(density, stick, edge)[0]
+    grown = LATE - INSTANT
+    material = vc.Material(vc.CreepSeries(INSTANT, [grown], [retardation]), 0.0)
+    found = states(
+        material,
+        vc.step(FORCE),
+        vc.TangentialHistory([time], force_x=force),
+        64,
+        times=vc.log_times(0.02, time, 60),
+        compliance=float(compliance(time)),
+    )
+    assert found[-1].tangential_displacement_x == close_to(shift, rel=6e-4)
+    assert np.sqrt(1 - found[-1].slip_fraction) == close_to(stick / edge, abs=0.02)

@@ -146,3 +146,30 @@ def test_a_force_without_contact_is_refused_with_its_time():
     tangential = vc.tangential_step(force_x=1e-5)
     with pytest.raises(vc.ConvergenceError, match=r"the bodies are apart at t = 1 s"):
         march(load, tangential, [0.0, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("tangential", "load", "said"),
+    [
+        (vc.TangentialHistory([0.5], force_x=0.0299), vc.step(0.1), "within 1 % of what friction"),
+        (vc.TangentialHistory([0.5], force_x=4e-3), vc.step(0.1), "cells wide"),
+        (
+            vc.TangentialHistory([0, 0.4, 1], force_x=[0, 1e-3, 1e-3]),
+            vc.ForceHistory([0, 0.4, 1, 1], [0.01, 0.01, 0.01, 0.1]),
+            "the contact grows by",
+        ),
+    ],
+)
+@pytest.mark.filterwarnings("default::viscontact.AccuracyWarning")
+def test_inaccurate_steps_warn_once(tangential, load, said):
+    with pytest.warns(vc.AccuracyWarning) as caught:
+        march(load, tangential, [0.2, 0.6, 0.8, 1.0])
+    assert sum(said in str(each.message) for each in caught) == 1
+
+
+@pytest.mark.filterwarnings("default::viscontact.AccuracyWarning")
+def test_neglected_coupling_warns():
+    given = {"friction": vc.Friction(0.3, coupling=False), "tangential": SHAKEN["x"]}
+    stiff = vc.Material(vc.Elastic(1e6), 0.3)
+    with pytest.warns(vc.AccuracyWarning, match="this is neglected"):
+        list(vc.march(BALL, stiff, vc.step(0.1), GRID, [1.0], **given))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +13,13 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.shear_terms import is_uncoupled, shear_terms
+from viscontact.mechanics.problem.surface import constant_poisson_ratio
 from viscontact.units.formatting import format_quantity
+
+#: Part of what friction carries from which on a run warns, fewest cells across the ring that
+#: slips, growth of the contact in one step, and Poisson's ratio from which on pressure hardly moves
+#: the surface along itself.
+NEARLY_SLIDES, LEAST_RING, LARGE_GROWTH, NEARLY_INCOMPRESSIBLE = 0.99, 2.0, 1.5, 0.45
 
 #: Part of what friction carries from which on a body counts as sliding away.
 SLIDES = 1 - 1e-9
@@ -69,6 +76,58 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
             "tangential.displacement_x: a line contact has no point at rest that a displacement "
             "counts from; prescribe forces"
         )
+
+
+def coupling_warnings(problem: Problem) -> dict[str, str]:
+    """Warn of bodies whose pressure and tractions are coupled, where that is neglected."""
+    if problem.friction is None or is_uncoupled(problem.bodies):
+        return {}
+    ratios = [constant_poisson_ratio(material) for material in problem.materials]
+    if all(ratio is not None and ratio >= NEARLY_INCOMPRESSIBLE for ratio in ratios):
+        return {}
+    return {
+        "coupling": "pressure moves the surfaces along themselves, as Poisson's ratio is below 0.5, "
+        "and this is neglected (coupling=False); tractions and shifts err by some percent"
+    }
+
+
+@dataclass(frozen=True)
+class Grip:
+    """What a frictional contact carries at the end of a step, in numbers of cells."""
+
+    time: float  # [s]
+    force: float  # prescribed tangential force [N]
+    carried: float  # μ W [N]
+    cells: int  # in contact
+    slipping: int  # of these
+    before: int  # in contact before the step
+
+    @property
+    def ring(self) -> float:
+        """Cells across the ring that slips around a round contact."""
+        radius = math.sqrt(self.cells / math.pi)
+        return radius - math.sqrt((self.cells - self.slipping) / math.pi)
+
+
+def grip_warnings(grip: Grip) -> dict[str, str]:
+    """Warn of a force close to sliding, a ring of few cells, and a contact that grows at once."""
+    at, found = f"at t = {format_quantity(grip.time, 's', 4)}", {}
+    if grip.force > NEARLY_SLIDES * grip.carried:
+        found["nearly slides"] = (
+            f"{at} the tangential force is within 1 % of what friction carries; the shift of the "
+            "body depends on details there"
+        )
+    if 0 < grip.slipping < grip.cells and grip.ring < LEAST_RING:
+        found["slip ring"] = (
+            f"{at} the part of the contact that slips is {grip.ring:.1f} cells wide; slip and "
+            "heat need finer cells"
+        )
+    if grip.force > 0 and grip.cells > LARGE_GROWTH * grip.before > 0:
+        found["growth under shear"] = (
+            f"in the step to t = {format_quantity(grip.time, 's', 4)} the contact grows by "
+            f"{grip.cells / grip.before - 1:.0%} under a tangential force; use more steps there"
+        )
+    return found
 
 
 def check_grip(problem: Problem) -> None:

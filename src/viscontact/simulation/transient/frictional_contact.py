@@ -12,6 +12,7 @@ integral of q, and its value r_m before. A body without friction has `Frictionle
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -39,6 +40,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import (
     response_to,
 )
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.checks.friction import Grip, grip_warnings
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
@@ -53,6 +55,9 @@ ROUNDING = 1e-9
 
 class Frictionless:
     """Contact without friction, which carries no traction."""
+
+    #: Warnings of the last step, by kind.
+    warnings: Mapping[str, str] = {}
 
     def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
         """Return no scalars and fields."""
@@ -126,6 +131,8 @@ class FrictionalContact:
         self._state = SlipState.at_first(run.open_gap)
         #: Change of the traction [Pa] in the last step, and its duration [s].
         self._trend = np.zeros(shape), 0.0
+        #: Warnings of the last step, by kind.
+        self.warnings: dict[str, str] = {}
 
     def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
         """Solve the tractions at the end of a step; return scalars and fields of its state."""
@@ -145,7 +152,30 @@ class FrictionalContact:
         self._accept(responses, after.traction)
         self._trend = after.traction - before.traction, step.duration
         self._state = after
-        return self._scalars(step, before, found, region) | self._fields(found, region)
+        scalars = self._scalars(step, before, found, region)
+        self.warnings = self._warnings_of(step, before, constraints, scalars)
+        return scalars | self._fields(found, region)
+
+    def _warnings_of(
+        self,
+        step: TimeStep,
+        before: SlipState,
+        constraints: ShiftConstraints,
+        scalars: dict[str, float],
+    ) -> dict[str, str]:
+        """Warnings of the step, by kind."""
+        after, area = self._state, self._run.grid.cell_area
+        cells, held = (int(np.count_nonzero(each.pressure > 0)) for each in (after, before))
+        return grip_warnings(
+            Grip(
+                step.time,
+                float(np.hypot(*constraints.resultants[:2])),
+                self._coefficient * float(after.pressure.sum()) * area,
+                cells,
+                round(cells * scalars["slip_fraction"]),
+                held,
+            )
+        )
 
     def _constraints(self, point: TangentialPoint) -> ShiftConstraints:
         """Constraints of the step's change of the motion."""

@@ -134,6 +134,7 @@ class March:
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
         state = replace(state, **self._friction.advance(step, solution))
+        self._observer.warn(self._friction.warnings)
         _LOG.debug(
             "step to t = %.6g s: %d iterations, residual %.2g",
             *(step.time, solution.iterations, solution.residual),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -126,6 +127,11 @@ class Observer:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before = solution
         return state
+
+    def warn(self, found: Mapping[str, str]) -> None:
+        """Take further warnings of a step, by kind."""
+        if self._warns:
+            self._open = {**found, **self._open}
 
     def _rim_of(self, solution: StepSolution) -> Rim:
         gap, in_contact = solution.gap, solution.in_contact

@@ -13,6 +13,7 @@ from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
+from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.material import (
     expansion_warnings,
     law_warnings,
@@ -49,6 +50,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings |= origin_warnings(problem.materials)
     warnings |= temperature_warnings(problem.materials, problem.temperature)
     warnings |= shift_warnings(problem)
+    warnings |= coupling_warnings(problem)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
