@@ -5,6 +5,7 @@ J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables, or just one of t
 """
 
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
+from viscontact.reference.friction import PartialSlip, cattaneo_mindlin
 from viscontact.reference.hertz import (
     EllipticalContact,
     SphereContact,
@@ -60,6 +61,7 @@ __all__ = [
     "LeeRadokContact",
     "LineContact",
     "MovingCylinder",
+    "PartialSlip",
     "PunchOscillation",
     "PunchProfile",
     "ResolutionError",
@@ -70,6 +72,7 @@ __all__ = [
     "TingHump",
     "TingTriangle",
     "WavyContact",
+    "cattaneo_mindlin",
     "clustered_times",
     "cone",
     "fast_sphere_friction_coefficient",

@@ -86,8 +86,8 @@ def coupling_warnings(problem: Problem) -> dict[str, str]:
     if all(ratio is not None and ratio >= NEARLY_INCOMPRESSIBLE for ratio in ratios):
         return {}
     return {
-        "coupling": "pressure moves the surfaces along themselves, as Poisson's ratio is below 0.5, "
-        "and this is neglected (coupling=False); tractions and shifts err by some percent"
+        "coupling": "pressure moves the surfaces along themselves, as Poisson's ratio is below "
+        "0.5, and this is neglected (coupling=False); tractions and shifts err by some percent"
     }
 
 
