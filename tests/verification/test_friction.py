@@ -281,3 +281,33 @@ def test_a_jump_of_the_force_on_a_creeping_sphere():
     )
     assert found[-1].tangential_displacement_x == close_to(shift, rel=6e-4)
     assert np.sqrt(1 - found[-1].slip_fraction) == close_to(stick / edge, abs=0.02)
+
+
+@pytest.mark.parametrize("cells", [22, 34])
+def test_error_bars_of_a_loop_hold(cells):
+    """Errors from the solutions of Cattaneo, Mindlin and Deresiewicz, in coefficients of others."""
+    force, limit = 0.9, 0.45 * FORCE
+    exact = vc.reference.cattaneo_mindlin(FORCE, RADIUS, 1 / INSTANT, force, 0.45)
+    size = 2.6 * hertz_radius(INSTANT)
+    ds = vc.simulate(
+        vc.Paraboloid(RADIUS, RADIUS),
+        elastic(),
+        vc.step(FORCE),
+        vc.Grid((cells, cells), (size, size)),
+        [1.0, 2.0, 4.0, 6.0, 8.0],
+        friction=vc.Friction(0.45, coupling=False),
+        tangential=vc.TangentialHistory(
+            [1, 2, 4, 6, 8], force_x=force * np.array([0, 1, -1, 1, -1])
+        ),
+        fields="none",
+    )
+    stick = (1 - force / limit) ** (2 / 3)
+    for name, true in (
+        ("tangential_displacement_x", exact.displacement),
+        ("slip_fraction", 1 - stick),
+        ("stick_area", np.pi * exact.stick_radius**2),
+    ):
+        assert abs(float(ds[name][1]) - true) < float(ds[f"{name}_error"][1]) < 0.6 * true
+    heat = float(ds.friction_heat[4] - ds.friction_heat[2])
+    assert abs(heat - exact.heat_of_cycle) < float(ds.friction_heat_error[4])
+    assert float(ds.tangential_force_x_error[1]) < 1e-5 * force

@@ -27,6 +27,13 @@ from viscontact.simulation.transient.setup import RunSetup
 #: Scalars that vanish for an elastic body.
 RESISTANCES = ("resistance_x", "resistance_y", "friction_coefficient", "motion_work")
 
+#: Scalars of a contact under friction that are not given.
+GRIPPING = (
+    *("tangential_displacement_x", "tangential_displacement_y", "rotation"),
+    *("stick_area", "slip_fraction", "friction_heat", "friction_power"),
+    *("tangential_stiffness_x", "tangential_stiffness_y"),
+)
+
 TINY = float(np.finfo(np.float64).tiny)
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
@@ -68,6 +75,11 @@ LEAST_ERRORS = {
 
 #: The same where the pressure drops steeply to the rim, under blunt bodies, times the cells across.
 STEEP_ERRORS = {"approach": 0.045, "force": 0.045, "work": 0.045}
+
+#: Least relative error of shifts and of the heat of friction, times the square of the cells across
+#: the contact, and of the area that sticks or slips, over that of the contact, times these cells:
+#: the stick radius is known to parts of a cell.
+LEAST_SHIFT_ERROR, LEAST_HEAT_ERROR, LEAST_STICK_ERROR = 0.12, 2.0, 0.25
 
 #: Growth of the first two of these with the logarithm of a contact's length over its width: Hertz's
 #: ellipses err by 0.15 in the mean, at most by 0.8.
@@ -160,11 +172,27 @@ def least_bar(
     if name in MOMENTS:
         smooth = _least_moment_bar(run, name, kinds, history)
         return np.maximum(smooth, _least_end_tilt(run, name, kinds, history))
+    if name in GRIPPING:
+        return _least_grip_bar(run, name, history)
     if name in RESISTANCES:
         return least_resistance_bar(run, name, history)
     if name in LEAST_ERRORS and name != run.problem.load.control:
         return _least_bulk_bar(run, name, kinds, history)
     return 0.0
+
+
+def _least_grip_bar(run: RunSetup, name: str, history: History) -> Floats:
+    """Usual errors of a contact under friction on the cells across it."""
+    across = np.maximum(cells_of_breadth(run, history), 1.0)
+    given = name.removeprefix("tangential_")
+    if getattr(run.problem.tangential, given, None) is not None:  # a prescribed motion
+        return np.zeros(across.size)
+    if name in ("stick_area", "slip_fraction"):
+        whole = history["contact_area"] if name == "stick_area" else np.ones(across.size)
+        partial = history["slip_fraction"] > 0
+        return np.asarray(np.where(partial, LEAST_STICK_ERROR / across * whole, 0.0))
+    least = LEAST_HEAT_ERROR if name.startswith("friction") else LEAST_SHIFT_ERROR
+    return np.asarray(least / across**2 * np.abs(np.nan_to_num(history[name])))
 
 
 def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
