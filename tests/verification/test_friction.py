@@ -283,7 +283,7 @@ def test_a_jump_of_the_force_on_a_creeping_sphere():
     assert np.sqrt(1 - found[-1].slip_fraction) == close_to(stick / edge, abs=0.02)
 
 
-@pytest.mark.parametrize("cells", [22, 34])
+@pytest.mark.parametrize("cells", [30, 42])
 def test_error_bars_of_a_loop_hold(cells):
     """Errors from the solutions of Cattaneo, Mindlin and Deresiewicz, in coefficients of others."""
     force, limit = 0.9, 0.45 * FORCE
