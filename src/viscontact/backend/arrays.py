@@ -17,6 +17,8 @@ Complexes = NDArray[np.complex128]
 Bools = NDArray[np.bool_]
 #: Indices and counts.
 Integers = NDArray[np.intp]
+#: Small whole numbers, each of which stands for a named state.
+Flags = NDArray[np.int8]
 #: Type of a field over the grid: numbers or a mask.
 Field = TypeVar("Field", Floats, Bools)
 #: Numbers of any kind: real or complex, in single or double precision.

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.arrays import Bools, Flags, Floats
 from viscontact.bodies.grid import Grid
 
 
@@ -213,7 +213,7 @@ class ContactState:
     traction_y: Floats | None = None
     slip_x: Floats | None = None
     slip_y: Floats | None = None
-    slip_state: Integers | None = None
+    slip_state: Flags | None = None
     friction_work: Floats | None = None
     tangential_force_x: float | None = None
     tangential_force_y: float | None = None

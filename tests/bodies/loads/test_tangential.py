@@ -5,7 +5,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.bodies.loads.tangential import JointLoad
+from viscontact.bodies.loads.joint import JointLoad
 
 
 def test_a_history_is_linear_between_its_points_and_held_after_them():

@@ -9,11 +9,10 @@ from viscontact.bodies.loads.mixed import MixedHistory
 from viscontact.bodies.loads.program import Condition, LoadProgram, Segment
 from viscontact.bodies.loads.reciprocation import Reciprocation, reciprocating
 from viscontact.bodies.loads.standard import ramp, step, triangle
-from viscontact.bodies.loads.tangential import (
-    TangentialHarmonic,
+from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.bodies.loads.tangential_harmonic import TangentialHarmonic, tangential_harmonic
+from viscontact.bodies.loads.tangential_history import (
     TangentialHistory,
-    TangentialLoad,
-    tangential_harmonic,
     tangential_ramp,
     tangential_step,
 )

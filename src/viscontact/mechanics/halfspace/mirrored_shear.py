@@ -9,29 +9,22 @@ Trans. Signal Process. 42 (1994) 1038).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from copy import copy
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 import scipy  # its transforms are imported at their first use
 
 from viscontact.backend.arrays import Floats, Numbers
-from viscontact.backend.transforms import (
-    Transforms,
-    fast_length,
-    fastest_transforms,
-    transforms_by,
-)
-from viscontact.mechanics.halfspace.shear_filter import Entries, Parts
+from viscontact.backend.transforms import fast_length
+from viscontact.mechanics.halfspace.shear_filter import Entries, PairFilter, Parts
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
 #: True along x and along y if the component x is even there.
 Evenness = tuple[bool, bool]
 
 
-class MirroredShearFilter:
-    """`ShearFilter` on the quarter with positive coordinates; symbols at k = 0, 1, ... lengths."""
+class MirroredShearFilter(PairFilter):
+    """Filter on the quarter with positive coordinates; symbols at k = 0, 1, ... lengths."""
 
     def __init__(
         self,
@@ -40,32 +33,10 @@ class MirroredShearFilter:
         symbol: Entries,
         *,
         even: Evenness,
-        single: bool = False,
-        transforms: Transforms | None = None,
+        **options: Any,
     ) -> None:
-        self.shape, self._lengths, self._even = shape, lengths, even
-        self._transforms = transforms or transforms_by(fastest_transforms())
-        self._number = np.dtype(np.float32 if single else np.float64)
-        self._symbol = tuple(part.astype(self._number) for part in symbol)
-
-    def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
-        """Weighted sum of filters on the same block, in the precision of this one."""
-        total = copy(self)
-        pairs = list(zip(weights, parts, strict=True))
-        total._symbol = tuple(
-            np.asarray(sum(weight * part._symbol[entry] for weight, part in pairs)).astype(
-                self._number
-            )
-            for entry in range(3)
-        )
-        return total
-
-    def in_single(self) -> Self:
-        """The same filter in single precision."""
-        same = copy(self)
-        same._number = np.dtype(np.float32)
-        same._symbol = tuple(part.astype(np.float32) for part in self._symbol)
-        return same
+        super().__init__(shape, lengths, symbol, **options)
+        self._even = even
 
     def apply(self, fields: Numbers) -> Numbers:
         """The pair of fields of another pair, in the precision of the filter."""

@@ -7,6 +7,7 @@ both.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from copy import copy
 from typing import Any, Self
@@ -26,7 +27,7 @@ from viscontact.mechanics.halfspace.shear_influence import ShearTables
 Entries = tuple[Numbers, Numbers, Numbers]
 
 
-class ShearFilter:
+class PairFilter(ABC):
     """Pairs of fields whose spectra are those of given pairs times a symmetric matrix."""
 
     def __init__(
@@ -42,6 +43,10 @@ class ShearFilter:
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._number = np.dtype(np.float32 if single else np.float64)
         self._symbol = tuple(part.astype(self._number) for part in symbol)
+
+    @abstractmethod
+    def apply(self, fields: Numbers) -> Numbers:
+        """The pair of fields of another pair, in the precision of the filter."""
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of filters on the same block, in the precision of this one."""
@@ -61,6 +66,10 @@ class ShearFilter:
         same._number = np.dtype(np.float32)
         same._symbol = tuple(part.astype(np.float32) for part in self._symbol)
         return same
+
+
+class ShearFilter(PairFilter):
+    """Filter on a whole block of cells, by Fourier transforms."""
 
     def apply(self, fields: Numbers) -> Numbers:
         """The pair of fields of another pair, in the precision of the filter."""
@@ -135,10 +144,10 @@ def shear_preconditioner(
 class Parts:
     """Parts of a surface's response to shear: that of 1/r, and that by Poisson's ratio."""
 
-    def __init__(self, direct: Any, poisson: Any) -> None:
+    def __init__(self, direct: PairFilter, poisson: PairFilter) -> None:
         self._both = direct, poisson
 
-    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> Any:
+    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> PairFilter:
         """Operator of given weights of both parts."""
         found = self._both[0].sum_of(self._both, (direct, poisson))
         return found.in_single() if single else found

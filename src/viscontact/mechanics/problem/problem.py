@@ -16,6 +16,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Law
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.clock import TIME, Clock, ReducedTime
+from viscontact.bodies.loads.joint import JointLoad
 from viscontact.bodies.loads.largest_load import largest_load
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
@@ -259,7 +260,7 @@ class Problem:
     def history(self) -> LoadHistory:
         """The load on the contact, with the kinks of a path and of a tangential load."""
         load = self.motion.history_under(self.contact_load)
-        return load if self.tangential is None else self.tangential.history_under(load)
+        return load if self.tangential is None else JointLoad(load, self.tangential)
 
     @cached_property
     def instants(self) -> Floats:

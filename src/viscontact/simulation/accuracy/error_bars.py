@@ -141,24 +141,27 @@ def error_bars_from(
     touching = _touching(history, found)
     _bound_by_first_contact(values, history, touching)
     apart = _certainly_separated(run, history, touching)
-    for name in ZERO_WITHOUT_CONTACT:
-        values[name][apart] = 0.0
-    if not run.problem.motion.stands:
-        before = apart & ~np.logical_or.accumulate(touching)
-        for names, where in (
-            (ZERO_WITHOUT_MOVING_CONTACT, apart),
-            (ZERO_BEFORE_CONTACT, before),
-        ):
-            for name in names:
-                values[name][where] = 0.0
-    if run.problem.friction is not None:
-        for name in ZERO_WITHOUT_GRIP:
-            values[name][apart] = 0.0
+    _zero_without_contact(run, values, apart, touching)
     peaks = values["peak_pressure"]
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
     return ErrorBars(values, warnings, event_errors(run, ends))
+
+
+def _zero_without_contact(
+    run: RunSetup, values: dict[str, Floats], apart: Bools, touching: Bools
+) -> None:
+    """Set bars of zero at instants at which bodies are apart, or have not touched before."""
+    zero: list[tuple[tuple[str, ...], Bools]] = [(ZERO_WITHOUT_CONTACT, apart)]
+    if not run.problem.motion.stands:
+        before = apart & ~np.logical_or.accumulate(touching)
+        zero += [(ZERO_WITHOUT_MOVING_CONTACT, apart), (ZERO_BEFORE_CONTACT, before)]
+    if run.problem.friction is not None:
+        zero.append((ZERO_WITHOUT_GRIP, apart))
+    for names, where in zero:
+        for name in names:
+            values[name][where] = 0.0
 
 
 def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:

@@ -97,7 +97,7 @@ def _solution(
         traction,
         found.motion,
         found.slip * slips,
-        np.where(slips, 2, found.directions.sticks.astype(np.intp)),
+        (2 * slips + found.directions.sticks).astype(np.int8),
         found.error,
         found.duality_gap,
         found.displacement,

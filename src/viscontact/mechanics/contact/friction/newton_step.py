@@ -8,12 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Singles
-from viscontact.mechanics.contact.friction.problem import (
-    Directions,
-    ShearBlock,
-    SlipProblem,
-    turned,
-)
+from viscontact.mechanics.contact.friction.directions import Directions, turned
+from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
 

@@ -10,7 +10,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Numbers
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.contact.friction.problem import AnyShearFilter, ShearBlock
+from viscontact.mechanics.contact.friction.problem import ShearBlock
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift
 from viscontact.mechanics.halfspace.mirrored_shear import (
     Evenness,
@@ -18,6 +18,7 @@ from viscontact.mechanics.halfspace.mirrored_shear import (
     mirrored_shear_preconditioner,
 )
 from viscontact.mechanics.halfspace.shear_filter import (
+    PairFilter,
     Parts,
     periodic_shear_convolution,
     shear_convolution,
@@ -143,7 +144,7 @@ class ShearDomain:
             return RigidShift(x, y, self.grid.cell_area)
         return RigidShift(x, y, 4 * self.grid.cell_area, self._symmetry.modes)
 
-    def _preconditioner(self, shape: tuple[int, int], kappa: float) -> AnyShearFilter:
+    def _preconditioner(self, shape: tuple[int, int], kappa: float) -> PairFilter:
         options: Any = {"transforms": self._transforms}
         if self._symmetry is None:
             return shear_preconditioner(shape, self.grid.cell_size, kappa, **options)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.mechanics.contact.friction.problem import Directions, SlipProblem, directions_of
+from viscontact.mechanics.contact.friction.directions import Directions, directions_of
+from viscontact.mechanics.contact.friction.problem import SlipProblem
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, pseudo_inverse
 
 

@@ -1,0 +1,107 @@
+"""History of the surface under shear: hereditary integrals of the tractions, one for each term.
+
+Over a step the surface moves along itself by
+
+    Σ T_m (b_m q + h_m - r_m)
+
+with the weights b_m of the new tractions q, the history h_m of the hereditary integral, and its
+value r_m at the end of the step before.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.contact.friction.region import Region, ShearDomain
+from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
+from viscontact.mechanics.time_integration.hereditary_integral import (
+    HereditaryIntegral,
+    HereditaryResponse,
+    response_to,
+)
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.mechanics.time_integration.step_shape import FieldMap
+from viscontact.simulation.transient.setup import RunSetup
+
+
+@dataclass(frozen=True, eq=False)
+class ShearStep:
+    """Displacement along the surface over a step, as a function of the new tractions."""
+
+    terms: tuple[ShearTerm, ...]
+    responses: tuple[HereditaryResponse, ...]
+    before: tuple[Floats, ...]  # hereditary integrals of the tractions before [-], (2, nx, ny)
+
+    @property
+    def compliance(self) -> float:
+        """Contact compliance of the new tractions [1/Pa]."""
+        pairs = zip(self.terms, self.responses, strict=True)
+        return sum(term.direct * response.compliance for term, response in pairs)
+
+    @property
+    def kappa(self) -> float:
+        """ν/(1 - ν) of the surface under the new tractions [-]."""
+        pairs = zip(self.terms, self.responses, strict=True)
+        weighted = sum(term.poisson * response.compliance for term, response in pairs)
+        return weighted / self.compliance
+
+    def past(self, domain: ShearDomain, region: Region) -> Floats:
+        """Displacement of a region in the step by earlier tractions [m], (2, nx, ny)."""
+        cut, parts = region.cut, domain.parts(region)
+        found = np.zeros((2, *region.shape))
+        for term, response, before in zip(self.terms, self.responses, self.before, strict=True):
+            change = response.history[:, *cut] - before[:, *cut]
+            if change.any():
+                found += parts.sum_of(term.direct, term.poisson).apply(change)
+        return found
+
+    def of(self, traction: Floats) -> tuple[Floats, ...]:
+        """Hereditary integrals of new tractions [-]."""
+        return tuple(response.of(traction) for response in self.responses)
+
+
+class ShearHistory:
+    """Hereditary integrals of the tractions over the whole grid, one for each term."""
+
+    def __init__(self, run: RunSetup) -> None:
+        self._terms = shear_terms(run.problem.bodies, run.problem.clocks)
+        plans = run.shear_plans
+        laws = tuple(plan.clocked_compliance for plan in plans) if len(plans) > 1 else ()
+        shape = (2, *run.grid.shape)
+        self._integrals: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
+        self._before: tuple[Floats, ...] = tuple(np.zeros(shape) for _ in plans)
+
+    def respond(self, step: TimeStep) -> ShearStep:
+        """Response to a step."""
+        responses = tuple(response_to(step, integral) for integral in self._integrals)
+        return ShearStep(self._terms, responses, self._before)
+
+    def accept(self, step: ShearStep, traction: Floats) -> None:
+        """Close a step with its tractions."""
+        traction.flags.writeable = False  # the integrals keep it without a copy
+        self._before = step.of(traction)
+        for integral in self._integrals:
+            integral.accept(traction)
+
+    def map_fields(self, grown: FieldMap) -> None:
+        """Continue on a larger grid."""
+        self._before = tuple(grown(each) for each in self._before)
+        for integral in self._integrals:
+            integral.map_fields(grown)
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a step as plain data."""
+        return {
+            "integrals": [integral.restart_data() for integral in self._integrals],
+            "before": list(self._before),
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue from restart data of the same run."""
+        for integral, data in zip(self._integrals, restart_data["integrals"], strict=True):
+            integral.restore(data)
+        self._before = tuple(restart_data["before"])

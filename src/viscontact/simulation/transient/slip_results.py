@@ -1,0 +1,71 @@
+"""Scalars, fields and warnings of a step under friction, as in the result."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from viscontact.bodies.grid import Grid
+from viscontact.simulation.checks.friction import Grip, grip_warnings
+from viscontact.simulation.transient.slip_state import SlipState, StepSlip
+from viscontact.simulation.transient.slip_step import SlipStep
+
+
+def slip_scalars(
+    grid: Grid, duration: float, before: SlipState, after: SlipState, step: StepSlip
+) -> dict[str, float]:
+    """Scalars at the end of a step of a duration [s]."""
+    # Without a datum displacements are not known.
+    motion = after.motion if grid.has_datum else np.full(3, math.nan)
+    stiffness = _stiffness(before, after) if grid.has_datum else (math.nan, math.nan)
+    sticks, touches = np.count_nonzero(step.state == 1), np.count_nonzero(step.state)
+    lost = after.heat - before.heat
+    return {
+        "tangential_force_x": float(after.forces[0]),
+        "tangential_force_y": float(after.forces[1]),
+        "torque": math.nan if any(grid.periodic) else float(after.forces[2]),
+        "tangential_displacement_x": float(motion[0]),
+        "tangential_displacement_y": float(motion[1]),
+        "rotation": float(motion[2]),
+        "stick_area": sticks * grid.cell_area,
+        "slip_fraction": 1 - sticks / touches if touches else 0.0,
+        "friction_heat": after.heat,
+        "friction_power": lost / duration if duration > 0 else math.nan,
+        "tangential_stiffness_x": stiffness[0],
+        "tangential_stiffness_y": stiffness[1],
+        "duality_gap": step.duality_gap,
+    }
+
+
+def slip_fields(after: SlipState, step: StepSlip) -> dict[str, Any]:
+    """Fields at the end of a step, read-only."""
+    fields = {
+        "traction_x": after.traction[0],
+        "traction_y": after.traction[1],
+        "slip_x": after.slip[0],
+        "slip_y": after.slip[1],
+        "slip_state": step.state,
+        "friction_work": after.work,
+    }
+    for field in fields.values():
+        field.flags.writeable = False
+    return fields
+
+
+def slip_warnings(step: SlipStep, after: SlipState, slip_fraction: float) -> dict[str, str]:
+    """Warnings of a step, by kind."""
+    cells, held = (int(np.count_nonzero(each.pressure > 0)) for each in (after, step.before))
+    force = float(np.hypot(*step.constraints.resultants[:2]))
+    slipping = round(cells * slip_fraction)
+    return grip_warnings(Grip(step.time, force, step.carried, cells, slipping, held))
+
+
+def _stiffness(before: SlipState, after: SlipState) -> tuple[float, float]:
+    """Changes of the forces over those of the shifts in the step; NaN at rest [N/m]."""
+    moved, added = after.motion - before.motion, after.forces - before.forces
+    along_x, along_y = (
+        float(added[axis] / moved[axis]) if moved[axis] else math.nan for axis in (0, 1)
+    )
+    return along_x, along_y

@@ -1,0 +1,131 @@
+"""What a frictional contact keeps from step to step, and the tractions found in a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Flags, Floats
+from viscontact.mechanics.contact.friction.problem import SlipSolution
+from viscontact.mechanics.contact.friction.region import Region, ShearDomain
+from viscontact.mechanics.contact.friction.rigid_shift import ShiftConstraints
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.step_solution import StepSolution
+
+#: Part of what friction carries, and of the displacements of a step, that counts as rounding.
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class StepSlip:
+    """Tractions at the end of a step and slip over it, on the whole grid."""
+
+    traction: Floats  # [Pa], (2, nx, ny)
+    slip: Floats  # of the surface under the body in the step [m], (2, nx, ny)
+    state: Flags  # 0 open, 1 stick, 2 slip
+    motion: Floats  # shifts [m] and rotation [rad] of the body in the step
+    forces: Floats  # along x and y [N] and torque [N m]
+    duality_gap: float = 0.0  # [-]
+
+    @classmethod
+    def apart(cls, shape: tuple[int, int], constraints: ShiftConstraints) -> StepSlip:
+        """Step without contact: only a prescribed motion goes on."""
+        nothing, nowhere = np.zeros((2, *shape)), np.zeros(shape, np.int8)
+        return cls(nothing, nothing, nowhere, constraints.motions, np.zeros(3))
+
+
+def step_slip(
+    found: SlipSolution,
+    constraints: ShiftConstraints,
+    domain: ShearDomain,
+    region: Region,
+    carried: float,
+) -> StepSlip:
+    """Solution on a region, as that of the whole grid; friction carries up to `carried` [N]."""
+    traction, slip, state = (
+        domain.spread(region, each) for each in (found.traction, found.slip, found.state)
+    )
+    arms = np.array([1.0, 1.0, constraints.arm])
+    forces = domain.shift(region).resultants(found.traction)
+    # What rounding leaves of symmetric loads is none.
+    forces[np.abs(forces) < ROUNDING * carried * arms] = 0.0
+    moved = found.motion * arms
+    noise = ROUNDING * max(float(np.abs(moved).max()), found.displacement)
+    moved[constraints.free & (np.abs(moved) < noise)] = 0.0
+    return StepSlip(traction, slip, state, moved / arms, forces, found.duality_gap)
+
+
+@dataclass(frozen=True, eq=False)
+class SlipState:
+    """What a frictional contact keeps from step to step, over the whole grid."""
+
+    traction: Floats  # [Pa], (2, nx, ny)
+    slip: Floats  # since the contact of each cell [m], (2, nx, ny)
+    work: Floats  # of friction per area since the start [J/m²], (nx, ny)
+    pressure: Floats  # at the end of the step before [Pa], (nx, ny)
+    gap: Floats  # [m], (nx, ny)
+    touched: Bools  # cells that have carried a traction
+    motion: Floats  # shifts [m] and rotation [rad] of the body
+    forces: Floats  # along x and y [N] and torque [N m]
+    heat: float = 0.0  # of friction since the start [J]
+
+    @classmethod
+    def at_first(cls, gap: Floats) -> SlipState:
+        """State before a run, of bodies that just touch."""
+        pair, field = np.zeros((2, *gap.shape)), np.zeros(gap.shape)
+        touched = np.zeros(gap.shape, bool)
+        return cls(pair, pair, field, field, gap, touched, np.zeros(3), np.zeros(3))
+
+    def on(self, enlargement: GridEnlargement) -> SlipState:
+        """The same state on a larger grid."""
+        small, large = enlargement.small.grid, enlargement.large.grid
+
+        def embedded(field: Any, beyond: Any = 0.0) -> Any:
+            if field.ndim == 2:
+                return small.embed(field, large, beyond=beyond)
+            return np.stack([small.embed(part, large, beyond=beyond) for part in field])
+
+        return replace(
+            self,
+            traction=embedded(self.traction),
+            slip=embedded(self.slip),
+            work=embedded(self.work),
+            pressure=embedded(self.pressure),
+            gap=embedded(self.gap, np.inf),
+            touched=embedded(self.touched, False),
+        )
+
+    def after(
+        self, solution: StepSolution, step: StepSlip, coefficient: float, cell_area: float
+    ) -> SlipState:
+        """State after a step in contact."""
+        pressure = solution.pressure
+        # The friction of the mean pressure over the way of the slip: exact where both grow
+        # linearly, while the mean traction over it loses a quarter in one step.
+        mean = coefficient * (self.pressure + pressure) / 2
+        lost = mean * np.hypot(*step.slip)
+        return SlipState(
+            step.traction,
+            np.where(pressure > 0, self.slip + step.slip, 0.0),
+            self.work + lost,
+            pressure,
+            solution.gap,
+            self.touched | (pressure > 0),
+            self.motion + step.motion,
+            step.forces,
+            self.heat + float(lost.sum()) * cell_area,
+        )
+
+    def apart(self, gap: Floats, step: StepSlip) -> SlipState:
+        """State after a step without contact, at whose end the bodies are apart by a gap [m]."""
+        return replace(
+            self,
+            traction=step.traction,
+            slip=np.zeros_like(self.slip),
+            pressure=np.zeros_like(self.pressure),
+            gap=gap,
+            motion=self.motion + step.motion,
+            forces=step.forces,
+        )

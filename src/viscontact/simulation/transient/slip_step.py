@@ -1,0 +1,127 @@
+"""Frictional problem of one step of a run: its constraints, its solution, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import ConvergenceError
+from viscontact.bodies.loads.tangential import TangentialPoint
+from viscontact.mechanics.contact.friction.entry import entry_compliance
+from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip
+from viscontact.mechanics.contact.friction.problem import SlipProblem, SlipSolution
+from viscontact.mechanics.contact.friction.region import Region, ShearDomain, ShearSymmetry
+from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.shear_history import ShearStep
+from viscontact.simulation.transient.slip_state import SlipState
+from viscontact.simulation.transient.step_solution import StepSolution
+from viscontact.units.formatting import format_quantity
+
+#: Least displacement that errors are relative to, over friction times that under pressure [-].
+LEAST_SHIFT = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class SlipStep:
+    """What is known of a step before its tractions are."""
+
+    time: float  # at its end [s]
+    before: SlipState
+    solution: StepSolution  # of the normal contact at its end
+    response: ShearStep
+    constraints: ShiftConstraints
+    coefficient: float  # of friction [-]
+
+    @property
+    def carried(self) -> float:
+        """Force that friction carries [N]."""
+        return self.coefficient * float(self.solution.resultants[0])
+
+
+def symmetry_of(run: RunSetup) -> ShearSymmetry | None:
+    """Symmetry of the tractions, if the normal contact has both mirror planes and one load acts."""
+    load = run.problem.tangential
+    acting = [mode for mode in range(3) if load is not None and load.acts[mode]]
+    if not all(run.mirrored) or len(acting) > 1:
+        return None
+    return ShearSymmetry(acting[0] if acting else 0)
+
+
+def shift_constraints(
+    run: RunSetup, point: TangentialPoint, motion_before: Floats
+) -> ShiftConstraints:
+    """Constraints of the change of the body's motion in a step that ends at a load."""
+    symmetry, motions = symmetry_of(run), list(point.motions)
+    if any(run.grid.periodic):  # a body without end does not turn
+        motions[2] = 0.0
+    free = np.array([motion is None for motion in motions])
+    if symmetry is not None:  # what does not act is zero
+        free &= symmetry.modes
+    forces = np.array([0.0 if force is None else force for force in point.forces])
+    there = np.array([0.0 if motion is None else motion for motion in motions])
+    change = np.where(free, 0.0, there - motion_before)
+    arm = max(run.grid.size) / 4
+    return ShiftConstraints(free, np.where(free, forces, 0.0), change, arm)
+
+
+def solved_on(
+    run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep, start: Floats
+) -> SlipSolution:
+    """Tractions of a step on a region, from a start on the whole grid [Pa]."""
+    problem = _slip_problem(run, domain, region, step)
+    block = domain.block(region, step.response.kappa)
+    found = solve_slip(problem, block, start[:, *region.cut], tolerance=run.problem.tolerance)
+    if not found.converged:
+        raise ConvergenceError(_not_converged(step, found, block.shift))
+    return found
+
+
+def refuse_force_apart(step: SlipStep) -> None:
+    """Refuse a force on bodies that do not touch."""
+    if np.abs(step.constraints.resultants).any():
+        raise ConvergenceError(
+            f"tangential: the bodies are apart at t = {format_quantity(step.time, 's', 6)} and "
+            "nothing carries the prescribed force; let it end before contact is lost, or "
+            "prescribe a displacement"
+        )
+
+
+def _slip_problem(
+    run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep
+) -> SlipProblem:
+    before, pressure = step.before, step.solution.pressure
+    entry = entry_compliance(
+        *(pressure, before.pressure, before.gap, run.grid.cell_size, step.response.kappa),
+        plane=not run.grid.has_datum,
+    )
+    largest = float(np.abs(step.solution.displacement).max())
+    return SlipProblem(
+        step.coefficient * pressure[region.cut],
+        step.response.past(domain, region),
+        step.response.compliance,
+        entry[:, *region.cut],
+        step.constraints,
+        LEAST_SHIFT * step.coefficient * largest,
+    )
+
+
+def _not_converged(step: SlipStep, found: SlipSolution, shift: RigidShift) -> str:
+    """Message about a step whose tractions were not found."""
+    time, resultants = format_quantity(step.time, "s", 6), shift.resultants(found.traction)
+    if step.constraints.imbalance(resultants, step.carried) > IMBALANCE:
+        missing = step.constraints.lacking(resultants)
+        return (
+            f"tangential: the body slides away at t = {time}: friction carries up to "
+            f"{format_quantity(step.carried, 'N', 4)}, and of the prescribed load "
+            f"{format_quantity(float(np.hypot(*missing[:2])), 'N', 4)} and "
+            f"{format_quantity(float(abs(missing[2])), 'N m', 4)} are left; prescribe less, or a "
+            "displacement in place of the force"
+        )
+    return (
+        f"the solver of friction stopped at t = {time} with residual {found.residual:.2g} after "
+        f"{found.iterations} iterations, short of the tolerance; likely causes: a force close to "
+        "what friction carries, or a tolerance near rounding"
+    )
