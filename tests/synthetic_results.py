@@ -215,6 +215,74 @@ def _steady(force: float) -> dict[str, Any]:
     }
 
 
+#: Force along x of `gripping_sphere` at 0, 1, 2, ... s over what friction carries; coefficient of
+#: friction, stick radius over that of the contact at the largest force, and heat of a cycle [J].
+SHAKEN, GRIP = (0.0, 0.0, 0.488, 0.0, -0.488, 0.0, 0.488, 0.0, -0.488), 0.3
+STICK, CYCLE_HEAT = 0.8, 4e-6
+
+
+def gripping_sphere(cells: int = 64, fields: bool = True) -> xr.Dataset:
+    """The sphere at its first contact, pulled to and fro along x: Cattaneo, Mindlin, Deresiewicz.
+
+    Tractions are those of nu = 0: virgin ones μ (p(a) - c/a p(c)) with c³ = a³ (1 - Q/(μ W)), and
+    after a reversal twice those of half the change. The heat grows evenly.
+    """
+    levels = np.array(SHAKEN)
+    results = maxwell_sphere([0.0] * levels.size, cells, fields)
+    times, radius = np.arange(levels.size, dtype=float), _maxwell_radius(0.0)
+    results["time"] = ("time", times, {"units": "s"})
+    limit, ring = GRIP * FORCE, 1 - STICK**2
+    zeros = np.zeros(levels.size)
+    scalars = {
+        "tangential_force_x": limit * levels,
+        "tangential_force_y": zeros,
+        "torque": zeros,
+        "tangential_displacement_x": 2e-6 * levels,
+        "tangential_displacement_y": zeros,
+        "rotation": zeros,
+        "stick_area": np.pi * radius**2 * (1 - ring * (levels != 0)),
+        "slip_fraction": ring * (levels != 0),
+        "friction_heat": CYCLE_HEAT / 4 * times,
+        "friction_power": zeros + CYCLE_HEAT / 4,
+    }
+    for name, values in scalars.items():
+        results[name] = ("time", values, SCALARS[name].attributes)
+    pull = {"times": times.tolist(), "force_x": (limit * levels).tolist()}
+    case = json.loads(results.attrs["case"]) | {
+        "friction": {"type": "Friction", "coefficient": GRIP, "wear": 3e-15},
+        "tangential": {"type": "TangentialHistory", **pull},
+    }
+    results.attrs["case"] = json.dumps(case)
+    if fields:
+        _add_slip(results, levels, radius)
+    return results
+
+
+def _add_slip(results: xr.Dataset, levels: FloatArray, radius: float) -> None:
+    """Add tractions, slip and work of `gripping_sphere`."""
+    x = results["x"].values
+    r = np.hypot(x[:, None], x[None, :])
+    peak = 1.5 * FORCE / (np.pi * radius**2)
+
+    def virgin(level: float) -> FloatArray:
+        edges = (radius, radius * (1 - abs(level)) ** (1 / 3))
+        inner = [np.sqrt(np.maximum(edge**2 - r**2, 0.0)) for edge in edges]
+        return np.asarray(np.sign(level) * GRIP * peak / radius * (inner[0] - inner[1]))
+
+    last, found = 0.0, []
+    for level in levels:
+        last = level if abs(level) == np.abs(levels).max() else last
+        found.append(virgin(last) - 2 * virgin((last - level) / 2))
+    traction, inside = np.stack(found), r < radius
+    slips = inside & (r > STICK * radius) & (levels != 0)[:, None, None]
+    slip = 1e-6 * slips * (r / radius - STICK) * np.sign(levels)[:, None, None]
+    dims = ("time", "x", "y")
+    results["traction_x"], results["traction_y"] = (dims, traction), (dims, 0 * traction)
+    results["slip_x"], results["slip_y"] = (dims, slip), (dims, 0 * slip)
+    results["slip_state"] = (dims, np.where(slips, 2, 1 * inside).astype(np.int8))
+    results["friction_work"] = (dims, np.abs(slip) * 1e6)
+
+
 def _results(
     time: FloatArray,
     x: FloatArray,

@@ -56,6 +56,8 @@ def test_each_kind_is_the_load_of_its_function(section, expected, tmp_path):
 def test_friction_is_uncoupled_where_the_case_says_so(tmp_path):
     assert read(tmp_path).friction == vc.Friction(0.3)
     assert read(tmp_path, "friction.coupling=false").friction == vc.Friction(0.3, coupling=False)
+    worn = read(tmp_path, "friction.wear=1e-7 mm^3/(N m)").friction
+    assert worn == vc.Friction(0.3, wear=1e-16)
 
 
 @pytest.mark.parametrize(

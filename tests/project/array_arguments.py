@@ -213,6 +213,7 @@ OBJECTS: tuple[Any, ...] = (
     *(vc.harmonic(2.0, 1.0, 1.0, 3), loads.MixedHistory(**CALLS["MixedHistory"][0])),
     *(vc.Travel(**CALLS["Travel"][0]), vc.reciprocating(1e-3, 1.0, 2)),
     *(surfaces.Surface(MAP, 1e-3), vc.IndentationRecord(**CALLS["IndentationRecord"][0])),
+    reference.cattaneo_mindlin(10.0, 0.01, 2e9, 1.5, 0.3),
     *(reference.hertz_sphere(1.0, 0.01, 1e6), reference.hertz_line(1.0, 0.01, 1e6)),
     *(reference.hertz_elliptical(1.0, 0.01, 0.02, 1e6), reference.westergaard(1.0, 1e-6, 1.0, 1e6)),
     *(reference.flat_punch(1.0, 1e-3, 1e6), reference.cone(1.0, 1.0, 1e6)),
@@ -227,6 +228,12 @@ OBJECTS: tuple[Any, ...] = (
 def a_run() -> Any:
     """Result over time."""
     return synthetic_results.maxwell_sphere(cells=16)
+
+
+@cache
+def a_run_under_friction() -> Any:
+    """Result over time, with tractions."""
+    return synthetic_results.gripping_sphere(cells=16)
 
 
 @cache
@@ -245,6 +252,10 @@ def several_runs() -> dict[str, Any]:
 def a_steady_motion() -> Any:
     """Result over speed."""
     return vc.steady(**CALLS["steady"][0])
+
+
+#: Results that are made where they are needed.
+LATER = (a_run, a_run_under_friction, a_layered_run, several_runs, a_steady_motion)
 
 
 @dataclass(frozen=True)
@@ -268,7 +279,7 @@ class Argument:
             value = dict.fromkeys(self.given["measured"], value)
         given = {**self.given, self.name: value}
         for name, each in given.items():
-            if callable(each) and each in (a_run, a_layered_run, several_runs, a_steady_motion):
+            if callable(each) and each in LATER:
                 given[name] = each()
         return self.call(**given)
 
@@ -310,9 +321,11 @@ def _of_result(call: Callable[..., Any]) -> tuple[dict[str, Any], ...]:
     first, *others = inspect.signature(call).parameters
     if first not in ("results", "ds", "runs"):
         return ()
-    places = {"times": [10.0, 100.0], "depths": [1e-4, 2e-4], "speeds": [1e-3]}
+    places = {"times": [2.0, 100.0], "depths": [1e-4, 2e-4], "speeds": [1e-3]}
     run = a_steady_motion if "speeds" in others else several_runs if first == "runs" else a_run
     run = a_layered_run if call is vc.interface_stresses else run
+    if call in (plot.stick_map, plot.traction_profile, plot.fretting_loop, plot.slip_history):
+        run = a_run_under_friction
     return ({first: run, **{name: places[name] for name in others if name in places}},)
 
 

@@ -25,20 +25,25 @@ class Friction:
         False: normal contact does not feel tractions along the surface, and the surface does not
         move along itself under pressure. That is exact for two bodies of the same material, and for
         bodies of Poisson's ratio 1/2 where the other is rigid or the same.
+    wear : float, optional
+        Specific wear rate k of Archard's law: worn volume over normal force and way of slip
+        [m³/(N m)]. It changes no contact; reports state the wear that the run would cause.
 
     Raises
     ------
     ValueError
-        If the coefficient is not a positive number up to 10, or coupling is neither true nor false.
+        If the coefficient is not a positive number up to 10, coupling is neither true nor false, or
+        the wear rate is not positive.
 
     Examples
     --------
     >>> Friction(0.3)
-    Friction(coefficient=0.3, coupling=True)
+    Friction(coefficient=0.3, coupling=True, wear=None)
     """
 
     coefficient: float = field(metadata={"unit": "1"})
     coupling: bool = True
+    wear: float | None = field(default=None, metadata={"unit": "m^3/(N m)"})
 
     def __post_init__(self) -> None:
         number = as_real(self.coefficient)
@@ -48,6 +53,8 @@ class Friction:
                 f"{self.coefficient!r}; write 0.3 for 30 %"
             )
         check_fields(self, "coefficient")
+        if self.wear is not None:
+            check_fields(self, "wear")
         if not isinstance(self.coupling, bool | np.bool_):
             raise ValueError(f"Friction: coupling must be true or false, got {self.coupling!r}")
 

@@ -13,6 +13,7 @@ from viscontact.bodies.friction import LARGEST
 from viscontact.bodies.loads import TangentialLoad
 from viscontact.bodies.loads.tangential import UNITS
 from viscontact.case.quantities import (
+    POSITIVE,
     Angle,
     CycleCount,
     Duration,
@@ -39,10 +40,17 @@ class FrictionSection(Section):
         "bodies of the same material and of Poisson's ratio 1/2",
     )
 
+    wear: Annotated[float, WithUnit("wear rate", POSITIVE)] | None = Field(
+        default=None,
+        description="worn volume over normal force and way of slip (Archard), for the wear that "
+        "reports state",
+        examples=["1e-7 mm^3/(N m)"],
+    )
+
     @property
     def built(self) -> friction.Friction:
         """The friction."""
-        return friction.Friction(self.coefficient, self.coupling)
+        return friction.Friction(self.coefficient, self.coupling, self.wear)
 
 
 class TangentialSection(Section):

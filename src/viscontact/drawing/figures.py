@@ -12,8 +12,8 @@ from functools import partial
 from typing import Literal
 
 #: Chapters of the report of a run, and of the calculator page, which has interactive figures only;
-#: those of "spots" and "stress" follow a sentence of the report, and are still.
-Chapter = Literal["pressure", "friction", "histories", "loops", "spots", "stress"]
+#: those of "spots", "stress" and "slip" follow a sentence of the report, and are still.
+Chapter = Literal["pressure", "friction", "histories", "loops", "spots", "stress", "slip"]
 
 
 @dataclass(frozen=True)
@@ -124,6 +124,23 @@ TABLE = (
         takes=("times", "progress"),
     ),
     _fields("indenter"),
+    _fields(
+        "stick-map",
+        of="time",
+        takes=("times",),
+        reported=Reported("slip", "Sticking and slipping cells", of_use="has_stored_slip"),
+    ),
+    _fields(
+        "traction-profile",
+        of="time",
+        takes=("times", "along", "at"),
+        reported=Reported("slip", "Section through the tractions", of_use="has_stored_slip"),
+    ),
+    FigureEntry(
+        "fretting-loop",
+        reported=Reported("slip", "Force over shift", of_use="has_shift"),
+    ),
+    FigureEntry("slip-history", reported=Reported("slip", "Slip over time", of_use="has_slip")),
     FigureEntry(
         "friction",
         of="speed",

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.reference.hertz import SphereContact, hertz_sphere
 from viscontact.reference.values import Values, require_positive
+from viscontact.units.numbers import real_array
 
 
 @dataclass(frozen=True)
@@ -65,8 +66,25 @@ class PartialSlip:
         return float(abs(scipy.integrate.quad(width, -force, force)[0]))
 
     def traction(self, r: ArrayLike) -> Values:
-        """Traction along the force at distances from the axis [m]; zero outside [Pa]."""
-        r = np.asarray(r, dtype=float)
+        """Traction along the force [Pa].
+
+        Parameters
+        ----------
+        r : array_like
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or ndarray
+            Friction times Hertz's pressure less that of the part that sticks, zero outside [Pa].
+
+        Examples
+        --------
+        >>> slip = cattaneo_mindlin(10.0, 0.01, 2e9, 1.5, 0.3)
+        >>> print(f"{slip.traction(0.9 * slip.normal.contact_radius) / 1e6:.2f} MPa")
+        5.57 MPa
+        """
+        r = real_array("r", r, "m")
         peak, radius = self.normal.peak_pressure, self.normal.contact_radius
         parts = [np.sqrt(np.maximum(edge**2 - r**2, 0.0)) for edge in (radius, self.stick_radius)]
         found = self.coefficient * peak / radius * (parts[0] - parts[1])

@@ -17,6 +17,7 @@ from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.html_page import html_page
 from viscontact.report.leak_chapter import leak_chapter
+from viscontact.report.slip_chapter import slip_chapter
 from viscontact.report.stress_chapter import stress_chapter
 from viscontact.report.title_block import title_lines
 from viscontact.report.verdict_chapter import verdict_chapter
@@ -127,6 +128,7 @@ def run_chapters(ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]
         ("spots", "Contact spots", result_chapters.spots_chapter(ds)),
         ("leakage", "Leakage", leak_chapter(ds)),
         ("stress", "Stress below the surface", stress_chapter(ds)),
+        ("slip", "Friction", slip_chapter(ds)),
         (
             *("histories", run_axis(ds).heading),
             chain(shown["friction"], input_chapters.speed_table(ds), *over_run),

@@ -91,19 +91,19 @@ class Snapshot:
         """Cell centres [m] and pressure [Pa] on a line that crosses the other axis at `at` [m]."""
         # Between two rows of cells the pressure is interpolated linearly: on an even grid the line
         # through the middle, the default, takes the mean of the two middle rows.
-        return self._line(self.pressure, along, at)
+        return self.line(self.pressure, along, at)
 
     def contact_section(
         self, along: Literal["x", "y"] = "x", at: float | None = None
     ) -> tuple[Floats, Bools]:
         """Cell centres [m] of `section`, and whether the bodies touch there."""
-        positions, share = self._line(self.in_contact.astype(np.float64), along, at)
+        positions, share = self.line(self.in_contact.astype(np.float64), along, at)
         return positions, share > 0
 
-    def _line(
+    def line(
         self, field: Floats, along: Literal["x", "y"], at: float | None
     ) -> tuple[Floats, Floats]:
-        """Cell centres [m] and a field on a line parallel to an axis."""
+        """Cell centres [m] and a field on a line that crosses the other axis at `at` [m]."""
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', got {along!r}")
         positions, across = (self.x, self.y) if along == "x" else (self.y, self.x)

@@ -126,6 +126,8 @@ _FACTORS: dict[str, dict[str, float]] = {
         "/ GPa": 1e-09,
         "/GPa": 1e-09,
         "1/GPa": 1e-09,
+        "m^3/(N m)": 1.0,
+        "mm^3/(N m)": 1e-09,
     },
     "kilogram / meter / second": {
         "Pa s": 1.0,

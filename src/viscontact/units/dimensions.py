@@ -53,6 +53,9 @@ DIMENSIONS = {
     ),
     "heat capacity": Dimension("a heat capacity", "J/(kg K)", "1800 J/kg/K", ("J/kg/K", "kJ/kg/K")),
     "density": Dimension("a density", "kg/m^3", "1150 kg/m3", ("kg/m^3", "g/cm^3")),
+    "wear rate": Dimension(
+        "a volume per force and way", "m^3/(N m)", "1e-7 mm^3/(N m)", ("mm^3/(N m)", "m^3/(N m)")
+    ),
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 

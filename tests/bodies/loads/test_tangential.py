@@ -71,3 +71,30 @@ def test_a_joint_load_has_the_kinks_and_jumps_of_both():
 def test_what_is_refused_is_named_with_a_remedy(make, said):
     with pytest.raises(ValueError, match=said):
         make()
+
+
+@pytest.mark.parametrize(
+    ("times", "forces", "cycles"),
+    [
+        # To and fro from 1 s on; the last half cycle is not whole.
+        ([0, 1, 2, 3, 4], [0, 1, -1, 1, -1], ((1, 3),)),
+        # A level that is held ends where it does.
+        ([0, 1, 2, 3, 4], [0, 1, 1, -1, 1], ((2, 4),)),
+        # From a held level and a jump.
+        ([0, 1, 2, 3, 4, 5, 5], [0, 1, 0.5, 1, 0, 0, 1], ((1, 3), (3, 5))),
+        # It does not come back to the same level, or not at all.
+        ([0, 1, 2, 3], [0, 1, -1, 2], ()),
+        ([1], [2], ()),
+    ],
+)
+def test_cycles_go_from_reversal_to_reversal_at_one_level(times, forces, cycles):
+    assert vc.TangentialHistory(times, force_y=forces).whole_cycles == cycles
+    moved = vc.TangentialHistory(times, displacement_x=forces)
+    assert moved.whole_cycles == cycles
+
+
+def test_cycles_of_a_harmonic_load_are_its_periods():
+    load = vc.tangential_harmonic(rotation=0.1, period=2.0, cycles=3)
+    assert load.whole_cycles == ((0, 2), (2, 4), (4, 6))
+    # Every run has steps at their ends, which are no kinks.
+    assert {2.0, 4.0} <= set(JointLoad(vc.step(1.0), load).stops.tolist())

@@ -19,7 +19,7 @@ from matplotlib.text import Text
 
 from closeness import close_to
 from returned import some
-from synthetic_results import maxwell_pressure, maxwell_sphere, roller
+from synthetic_results import gripping_sphere, maxwell_pressure, maxwell_sphere, roller
 from viscontact.drawing.content.rim import rim_curves
 from viscontact.laws import CreepSeries, Maxwell
 from viscontact.plot import COMPARISONS, FIGURES, creep_curve, save_figure
@@ -47,13 +47,18 @@ def legend_texts(axes: Axes) -> list[str]:
     return [text.get_text() for text in legend.get_texts()]
 
 
+#: Figures that only runs under friction have.
+OF_FRICTION = {"stick-map", "traction-profile", "fretting-loop", "slip-history"}
+
+
 # --- every figure ----------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
 def drawn(sphere: xr.Dataset) -> Callable[[str], Figure]:
-    """Every figure of the sphere, drawn once."""
-    return cache(lambda name: FIGURES[name](sphere))
+    """Every figure of the sphere, drawn once; those of friction of one under friction."""
+    gripping = gripping_sphere(cells=40)
+    return cache(lambda name: FIGURES[name](gripping if name in OF_FRICTION else sphere))
 
 
 @pytest.mark.parametrize("name", sorted(FIGURES))
@@ -77,7 +82,7 @@ LONG = {"history", "pressure-map", "pressure-profile"}
     "name",
     [
         name if name in LONG else pytest.param(name, marks=pytest.mark.slow)
-        for name in sorted(set(FIGURES) - {"pressure-radial", "exact", "leak-channel"})
+        for name in sorted(set(FIGURES) - OF_FRICTION - {"pressure-radial", "exact", "leak-channel"})
     ],
 )
 def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> None:
@@ -164,9 +169,10 @@ def test_figures_of_scalars_need_no_fields() -> None:
 
 @pytest.mark.parametrize("times", [[np.nan], [], [0.0, np.inf]])
 def test_times_that_are_no_numbers_are_refused(times: list[float], sphere: xr.Dataset) -> None:
+    gripping = gripping_sphere(cells=8)
     for name in sorted(FIGURES):
         with pytest.raises(ValueError, match=r"times must be finite"):
-            FIGURES[name](sphere, times=times)
+            FIGURES[name](gripping if name in OF_FRICTION else sphere, times=times)
 
 
 def test_instants_without_contact_are_refused_by_name(sphere: xr.Dataset) -> None:

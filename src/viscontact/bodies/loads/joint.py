@@ -60,3 +60,9 @@ class JointLoad(LoadHistory):
     def touches(self) -> Floats:
         """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
         return self.load.touches
+
+    @property
+    def stops(self) -> Floats:
+        """Instants at which every run has a step: those of the normal load, and of both [s]."""
+        ends = [time for cycle in self.tangential.whole_cycles for time in cycle]
+        return np.unique(np.concatenate([super().stops, ends]))

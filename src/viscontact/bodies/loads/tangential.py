@@ -69,6 +69,11 @@ class TangentialLoad(ABC):
         """Longest step on which the load is nearly linear [s]; inf if it is linear."""
         return math.inf
 
+    @property
+    @abstractmethod
+    def whole_cycles(self) -> tuple[tuple[float, float], ...]:
+        """Begin and end of each cycle of the load [s], in order; none if it does not come back."""
+
 
 def given_values(owner: str, given: Mapping[str, float]) -> dict[str, float]:
     """Values by name, finite and at least one."""

@@ -69,6 +69,11 @@ class TangentialHarmonic(TangentialLoad):
         return np.array([0.0, *(turns * self.period), self.end])
 
     @property
+    def whole_cycles(self) -> tuple[tuple[float, float], ...]:
+        """Its periods [s]."""
+        return tuple((n * self.period, (n + 1) * self.period) for n in range(self.cycles))
+
+    @property
     def jumps(self) -> Floats:
         """Time 0, unless the load starts at zero [s]."""
         return np.zeros(1) if math.sin(self.phase) else np.zeros(0)

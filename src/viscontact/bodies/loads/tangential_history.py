@@ -13,6 +13,8 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.level import positive_duration
 from viscontact.bodies.loads.tangential import (
+    FORCES,
+    MOTIONS,
     UNITS,
     TangentialLoad,
     TangentialPoint,
@@ -20,6 +22,9 @@ from viscontact.bodies.loads.tangential import (
     refuse_both,
 )
 from viscontact.units.numbers import finite, store
+
+#: Difference of two levels, over the largest, that is rounding.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -125,6 +130,33 @@ class TangentialHistory(TangentialLoad):
             for time in self.kinks.tolist()
         ]
         return np.asarray(self.kinks[np.array(changes)])
+
+    @cached_property
+    def whole_cycles(self) -> tuple[tuple[float, float], ...]:
+        """Begin and end of each cycle, from a reversal to the next one at the same level [s]."""
+        # Of the first direction that comes back at all.
+        for acts, *names in zip(self.acts, FORCES, MOTIONS, strict=True):
+            if acts and (found := self._cycles_of(next(filter(self._varies, names)))):
+                return found
+        return ()
+
+    def _varies(self, name: str) -> bool:
+        return getattr(self, name) is not None and bool(np.any(getattr(self, name)))
+
+    def _cycles_of(self, name: str) -> tuple[tuple[float, float], ...]:
+        values = np.append(0.0, np.broadcast_to(getattr(self, name), self.times.shape))
+        times = np.append(min(0.0, self.times[0]), self.times)
+        # The end of each level, and the reversals among these, the last one included.
+        ends = np.append(np.flatnonzero(np.diff(values)), values.size - 1)
+        levels, steps = values[ends], np.diff(values[ends])
+        turns = ends[1:][np.append(steps[:-1] * steps[1:] < 0, bool(steps.size))]
+        same = ROUNDING * np.abs(levels).max()
+        pairs = zip(turns[:-2:2], turns[2::2], strict=False)
+        return tuple(
+            (float(times[begin]), float(times[end]))
+            for begin, end in pairs
+            if abs(values[end] - values[begin]) <= same
+        )
 
 
 def tangential_step(**given: float) -> TangentialHistory:

@@ -21,7 +21,7 @@ from viscontact.drawing.content.panel import (
     Units,
 )
 from viscontact.drawing.content.temperature_course import temperature_aside
-from viscontact.mechanics.state import OF_CLOCKS
+from viscontact.mechanics.state import FRICTION, OF_CLOCKS
 from viscontact.results.margins import PREFIX, margins
 from viscontact.results.recorded_case import (
     across_period,
@@ -100,8 +100,9 @@ def _has_one_speed(run: xr.Dataset) -> bool:
 
 
 def is_idle(run: xr.Dataset, name: str) -> bool:
-    """Test for rounding under a centred load, on an elastic body, or across the motion."""
-    return is_rounding(run, name) if SCALARS[name].moving else is_centred(run, name)
+    """Test for rounding under a centred load, on an elastic body, or across motion or load."""
+    of_part = SCALARS[name].moving or SCALARS[name].of == FRICTION
+    return is_rounding(run, name) if of_part else is_centred(run, name)
 
 
 def _is_worth_a_panel(name: str, runs: list[xr.Dataset]) -> bool:

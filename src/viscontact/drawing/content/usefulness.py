@@ -8,7 +8,8 @@ import xarray as xr
 
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.figures import FigureEntry
-from viscontact.results.shown_scalars import is_long
+from viscontact.results.fretting import acting_directions, is_gripping
+from viscontact.results.shown_scalars import is_long, lacks_datum
 
 
 def is_of_use(entry: FigureEntry, ds: xr.Dataset) -> bool:
@@ -27,7 +28,22 @@ def has_loops(ds: xr.Dataset) -> bool:
     return bool(loops_of(ds))
 
 
+def has_slip(ds: xr.Dataset) -> bool:
+    """True for a run under friction."""
+    return is_gripping(ds)
+
+
+def has_stored_slip(ds: xr.Dataset) -> bool:
+    """True for a run under friction with its fields."""
+    return is_gripping(ds) and "slip_state" in ds and bool((ds["contact_area"].values > 0).any())
+
+
+def has_shift(ds: xr.Dataset) -> bool:
+    """True for a run under friction whose body is loaded along a direction, and shifts."""
+    return is_gripping(ds) and not lacks_datum(ds) and bool(acting_directions(ds))
+
+
 #: Tests that the table of figures names.
 TESTS: dict[str, Callable[[xr.Dataset], bool]] = {
-    each.__name__: each for each in (has_line_load, has_loops)
+    each.__name__: each for each in (has_line_load, has_loops, has_slip, has_stored_slip, has_shift)
 }

@@ -19,6 +19,9 @@ except ModuleNotFoundError as error:
 from viscontact.drawing.figures import TABLE, names_of
 from viscontact.drawing.matplotlib.animations.animation import Animation, animation
 from viscontact.drawing.matplotlib.animations.saving import ANIMATION_SUFFIXES, save_animation
+from viscontact.drawing.matplotlib.friction.fretting import fretting_loop, slip_history
+from viscontact.drawing.matplotlib.friction.stick_map import stick_map
+from viscontact.drawing.matplotlib.friction.traction_profile import traction_profile
 from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indenter
 from viscontact.drawing.matplotlib.geometry.indenter_figure import indenter
 from viscontact.drawing.matplotlib.geometry.load_drawing import draw_load
@@ -107,6 +110,7 @@ __all__ = [
     "fitted_indentation",
     "fitted_records",
     "fitted_series",
+    "fretting_loop",
     "friction",
     "given_pressure",
     "heat_balance",
@@ -133,8 +137,11 @@ __all__ = [
     "save_animation",
     "save_figure",
     "scatter_bands",
+    "slip_history",
+    "stick_map",
     "stress_section",
     "tornado",
+    "traction_profile",
     "trade_off",
     "trials",
     "von_mises_history",

@@ -25,6 +25,8 @@ _NAME = "history"
 
 #: Letters of the note on events on an inch.
 _LETTERS_AN_INCH = 17
+#: Letters of a label beside a panel.
+_LONGEST_LABEL = 27
 
 
 def history(
@@ -141,7 +143,17 @@ def draw_histories(axes: Sequence[Axes], panels: Sequence[Panel]) -> list[ErrorB
         # The note stands apart from the quantity that it is about.
         note = panel.note.replace(MESH_DEPENDENT, f"peak {MESH_DEPENDENT}").replace(": ", ":\n")
         bands += draw_panel(each, replace(panel, note=note))
+        each.set_ylabel(_in_two_lines(panel.y.label))
     return bands
+
+
+def _in_two_lines(label: str) -> str:
+    """Label that is longer than the axis of a panel, divided at the space next to its middle."""
+    spaces = [at for at, letter in enumerate(label) if letter == " "]
+    if len(label) <= _LONGEST_LABEL or not spaces:
+        return label
+    at = min(spaces, key=lambda each: abs(each - len(label) / 2))
+    return f"{label[:at]}\n{label[at + 1 :]}"
 
 
 def _note_events(figure: Figure, panel: Panel) -> None:

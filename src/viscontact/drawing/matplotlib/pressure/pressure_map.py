@@ -24,16 +24,14 @@ from viscontact.drawing.content.squared_pressure import squared_pressure
 from viscontact.drawing.content.window import Window
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.contour_labels import label_contours
-from viscontact.drawing.matplotlib.layout.map_axes import mark_body, rim_path, show_window
-from viscontact.drawing.matplotlib.layout.page import Width, page_width
+from viscontact.drawing.matplotlib.layout.map_axes import map_panels, mark_body, rim_path
+from viscontact.drawing.matplotlib.layout.page import Width
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import format_compact
 
 _NAME = "pressure-map"
 #: Appearance of the pressure: labelled iso-contours, or a colour for each cell.
 MapStyle = Literal["contours", "colours"]
-#: Height over width from which on maps are beside each other.
-_HIGH = 1.6
 #: Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
 #: Number of colours of cells.
@@ -104,7 +102,7 @@ def compare_pressure_maps(
 
 
 def _draw(maps: Maps, width: Width | None, *, in_colours: bool) -> Figure:
-    figure, panels = _panels(maps, width)
+    figure, panels = map_panels(maps, width)
     scale = maps.scale()
     draw = _draw_cells if in_colours else draw_contours
     lines = [
@@ -139,30 +137,6 @@ def _draw_cells(axes: Axes, shown: Map, window: Window, scale: ColourScale) -> N
         shading="nearest",
         rasterized=True,
     )
-
-
-def _panels(maps: Maps, wanted: Width | None) -> tuple[Figure, list[Axes]]:
-    count, shape = len(maps.maps), maps.window.height_to_width
-    long = shape < 0.6
-    # Two rows of high maps would not fit on a page.
-    columns = 1 if long else min(count, 4 if shape > _HIGH else 2)
-    rows = -(-count // columns)
-    width = page_width(wanted, style.TWO_COLUMNS if columns >= 2 or long else style.ONE_COLUMN)
-    height = rows * ((width - 1.3) / columns * shape + 0.22) + 0.45
-    figure = style.new_figure(width, height, fixed_aspect=True)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    panels = list(grid.flat)
-    for unused in panels[count:]:
-        unused.remove()
-    for axes in panels[:count]:
-        style.dress(axes)
-        show_window(axes, maps.window)
-    x, y = maps.axes()
-    for axes in grid[:, 0]:
-        axes.set_ylabel(y.label)
-    for axes in grid[-1, :]:
-        axes.set_xlabel(x.label)
-    return figure, panels[:count]
 
 
 def draw_contours(

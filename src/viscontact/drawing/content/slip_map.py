@@ -1,0 +1,109 @@
+"""Maps of the cells that stick and slip, with arrows of the tractions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from viscontact.backend.arrays import Floats, Integers
+from viscontact.drawing.content.map import Maps, maps_at
+from viscontact.results.fretting import fretting_cycles, require_grip
+from viscontact.results.snapshots import Snapshot, field_at, field_times
+from viscontact.units.formatting import format_quantity
+
+#: Instants that are shown by default.
+_INSTANTS = 4
+#: Numbers of `slip_state`.
+STICK, SLIP = 1, 2
+#: Arrows along the longer side of a window, and least length of one over the longest.
+_ARROWS, _SHORTEST = 17, 0.03
+
+
+@dataclass(frozen=True, eq=False)
+class SlipMap:
+    """Cells that stick and slip at one instant, and some of their tractions."""
+
+    state: Floats  # 0 open, 1 stick, 2 slip, shape (nx, ny)
+    places: Floats  # where arrows begin [m], shape (n, 2)
+    tractions: Floats  # along x and y [Pa], shape (n, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class SlipMaps:
+    """Maps of stick and slip with common window and scale."""
+
+    maps: Maps
+    slips: tuple[SlipMap, ...]
+
+    @property
+    def longest(self) -> float:
+        """Largest traction of all arrows [Pa]."""
+        return max(float(np.hypot(*each.tractions.T).max(initial=0.0)) for each in self.slips)
+
+    @property
+    def across(self) -> float:
+        """Arrows along the window's x."""
+        x, y = self.maps.window.x, self.maps.window.y
+        longer = max(x[1] - x[0], y[1] - y[0])
+        return _ARROWS * (x[1] - x[0]) / longer
+
+    @property
+    def note(self) -> str:
+        """Traction of the longest arrow, and notes of the window."""
+        longest = f"longest arrow: {format_quantity(self.longest, 'Pa', 3)}"
+        return "; ".join(filter(None, (longest, self.maps.window.note)))
+
+
+def slip_instants(run: xr.Dataset, figure: str) -> Floats:
+    """Instants of the last cycle, or under a tangential load, at which slip is shown [s]."""
+    stored = field_times(run, figure)
+    if cycles := fretting_cycles(run, figure):
+        return np.linspace(cycles[-1].begin, cycles[-1].end, _INSTANTS, endpoint=False)
+    scalars = run.sel(time=stored, method="nearest")
+    names = ("tangential_force_x", "tangential_force_y", "torque")
+    pulled = np.any([np.nan_to_num(scalars[name].values) != 0 for name in names], axis=0)
+    shown = stored[pulled] if pulled.any() else stored
+    chosen = np.linspace(0, shown.size - 1, min(_INSTANTS, shown.size)).round().astype(int)
+    return np.asarray(shown[chosen])
+
+
+def slip_maps(run: xr.Dataset, times: ArrayLike | None, figure: str) -> SlipMaps:
+    """Maps at requested instants [s], by default some of a run."""
+    require_grip(run, figure)
+    maps = maps_at(run, slip_instants(run, figure) if times is None else times, figure)
+    window = maps.window
+    longer = max(window.x[1] - window.x[0], window.y[1] - window.y[0])
+    found = tuple(_slip_map(run, each, longer / _ARROWS, figure) for each in maps.snapshots)
+    largest = max(float(np.hypot(*each.tractions.T).max(initial=0.0)) for each in found)
+    return SlipMaps(maps, tuple(_without_short(each, _SHORTEST * largest) for each in found))
+
+
+def _slip_map(run: xr.Dataset, shown: Snapshot, spacing: float, figure: str) -> SlipMap:
+    state, along_x, along_y = (
+        field_at(run, name, shown.time, figure)
+        for name in ("slip_state", "traction_x", "traction_y")
+    )
+    # Cells at about the spacing, the same on both sides of the middle.
+    rows, columns = (
+        _spread(at.size, max(1, round(spacing / cell)))
+        for at, cell in zip((shown.x, shown.y), shown.cell_size, strict=True)
+    )
+    chosen = np.ix_(rows, columns)
+    touching = state[chosen] > 0
+    x, y = np.meshgrid(shown.x[rows], shown.y[columns], indexing="ij")
+    places = np.stack([x[touching], y[touching]], axis=1)
+    tractions = np.stack([along_x[chosen][touching], along_y[chosen][touching]], axis=1)
+    return SlipMap(state, places, tractions)
+
+
+def _spread(count: int, stride: int) -> Integers:
+    """Indices of cells at a stride, with equal parts left at both ends."""
+    return np.arange((count - 1) % stride // 2, count, stride)
+
+
+def _without_short(slip: SlipMap, least: float) -> SlipMap:
+    kept = np.hypot(*slip.tractions.T) > least
+    return SlipMap(slip.state, slip.places[kept], slip.tractions[kept])
