@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import viscontact as vc
@@ -93,3 +95,47 @@ def test_friction_in_steady_motion_is_refused(tmp_path):
     steady = text + "motion: {kind: steady, along: y, speed: 1 mm/s}\n"
     with pytest.raises(CaseError, match="it is not supported in steady motion"):
         read(tmp_path, text=steady)
+
+
+TABLE = "time [s];force_x [mN];torque [N mm]\n0;0;0\n1;20;0,1\n2;-20;0,1\n"
+
+
+def with_table(tmp_path, table, more=""):
+    """The case with a tangential load from a table."""
+    (tmp_path / "shaken.csv").write_text(table, encoding="utf-8")
+    section = f"tangential:\n  kind: history\n  file: shaken.csv\n{more}"
+    return read(tmp_path, text=CASE.replace("tangential: {kind: step, force_x: 0.2 N}\n", section))
+
+
+@pytest.mark.parametrize(
+    ("table", "more"),
+    [
+        (TABLE, ""),
+        (TABLE.partition("\n")[2], "  columns: time [s]; force_x [mN]; torque [N mm]\n"),
+    ],
+)
+def test_a_table_is_a_tangential_history(tmp_path, table, more):
+    case = with_table(tmp_path, table, more)
+    found = case.tangential
+    assert found.times.tolist() == [0, 1, 2]
+    np.testing.assert_allclose(found.force_x, [0, 0.02, -0.02])
+    np.testing.assert_allclose(found.torque, [0, 1e-4, 1e-4])
+    assert case.files["tangential", "file"].name == "shaken.csv"
+
+
+@pytest.mark.parametrize(
+    ("table", "more", "said"),
+    [
+        (TABLE.replace("2;-20", "0,5;-20"), "", "shaken.csv:4: time must not decrease"),
+        (TABLE.replace("torque [N mm]", "force [N]"), "", "cannot read the column name 'force"),
+        (TABLE.replace("torque [N mm]", "displacement_x [um]"), "", "contradict each other"),
+        (TABLE.replace("[mN]", "[mm]"), "", "cannot read 'mm' as a force"),
+        ("time [s]\n0\n1\n", "", "has no load"),
+        ("time [s];force_x [N]\n0;1\nx;2\n", "", "shaken.csv:3"),
+        (TABLE, "  times: [0 s, 1 s]\n", "times: goes without file"),
+        (TABLE, "  force_y: [0 N, 1 N]\n", "force_y: goes without file"),
+    ],
+)
+def test_a_wrong_table_is_refused_with_its_line(tmp_path, table, more, said):
+    with pytest.raises(CaseError, match=re.escape(said)):
+        with_table(tmp_path, table, more)

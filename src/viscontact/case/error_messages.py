@@ -14,7 +14,7 @@ from viscontact.case.aliases import aliases_of, known_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.document import Document, as_written
 from viscontact.case.errors import KeyPath, dotted
-from viscontact.case.friction import AnyTangential, FrictionSection
+from viscontact.case.friction import FrictionSection
 from viscontact.case.indenters.profiles import AnyProfile, Logarithmic
 from viscontact.case.indenters.shapes import AnyShape
 from viscontact.case.leakage import Leakage
@@ -26,6 +26,7 @@ from viscontact.case.materials.shifts import AnyShift
 from viscontact.case.motion import AnyMotion, SpeedRange
 from viscontact.case.section_choice import alternatives
 from viscontact.case.sections import CaseFile
+from viscontact.case.tangential import AnyTangential
 from viscontact.case.title_block import TitleBlock
 from viscontact.case.unknown_words import meanings, nearest_word, unknown_word
 from viscontact.units.dimensions import DIMENSIONS

@@ -196,6 +196,8 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
         files[("load", "file")] = found.load.table
     if found.temperature is not None and found.temperature.table is not None:
         files[("temperature", "file")] = found.temperature.table
+    if found.tangential is not None and found.tangential.table is not None:
+        files[("tangential", "file")] = found.tangential.table
     if found.motion is not None:
         files |= {("motion", *key): path for key, path in found.motion.files.items()}
     materials = {"material": found.material, "indenter_material": found.indenter_material}

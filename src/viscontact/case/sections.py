@@ -15,7 +15,7 @@ from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
-from viscontact.case.friction import AnyTangential, FrictionSection
+from viscontact.case.friction import FrictionSection
 from viscontact.case.indenters.shapes import Shapes
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
@@ -24,6 +24,7 @@ from viscontact.case.materials.base import Medium
 from viscontact.case.materials.layers import AnyBody, Layers
 from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
+from viscontact.case.tangential import AnyTangential
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.case.title_block import TitleBlock
 from viscontact.mechanics.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
+from viscontact.tables.heading_cells import heading_cell
+from viscontact.tables.names import QUANTITIES, meaning
 from viscontact.tables.text import Row, looks_like_number
 
 #: What a caller states of the columns: meanings by heading, or a heading line.
@@ -14,7 +16,7 @@ _EXAMPLE = "'time [s], force [nN]'"
 
 
 def parted_columns(given: GivenColumns) -> tuple[Mapping[str, str | None], tuple[str, ...]]:
-    """Meanings by heading, and names of all columns; one of them is empty.
+    """Meanings by heading, and names of all columns, if they are given.
 
     A text is a heading line, ``time [s], , force [nN]`` with nothing for a column that is not read,
     or meanings, ``E_1=relaxation_modulus, remark=``.
@@ -30,7 +32,15 @@ def parted_columns(given: GivenColumns) -> tuple[Mapping[str, str | None], tuple
     if all("=" in cell for cell in cells):
         pairs = (cell.rpartition("=") for cell in cells)
         return {heading.strip(): meant.strip() or None for heading, _, meant in pairs}, ()
-    return {}, tuple(cells)
+    return _named_quantities(cells), tuple(cells)
+
+
+def _named_quantities(headings: list[str]) -> dict[str, str | None]:
+    """Quantities that are known by name only where a caller names the columns."""
+    named = ((heading, heading_cell(heading, 0).name.strip()) for heading in headings if heading)
+    return {
+        heading: name for heading, name in named if name in QUANTITIES and meaning(name) is None
+    }
 
 
 def with_typed_meanings(message: str, name: str) -> str:

@@ -8,7 +8,8 @@ from typing import Literal
 
 Data = Literal["deviatoric", "shear", "uniaxial"]
 
-#: Quantities of a table, and the dimension of their unit; None for those without a unit.
+#: Quantities of a table, and the dimension of their unit; None for those without a unit. Those of a
+#: tangential load are read where they are expected: a rheometer's torque has units of its own.
 QUANTITIES: dict[str, str | None] = {
     "time": "time",
     "angular_frequency": "angular frequency",
@@ -34,6 +35,12 @@ QUANTITIES: dict[str, str | None] = {
     "eccentricity_y": "length",
     "tilt_x": "angle",
     "tilt_y": "angle",
+    "force_x": "force",
+    "force_y": "force",
+    "torque": "torque",
+    "displacement_x": "length",
+    "displacement_y": "length",
+    "rotation": "angle",
     "x": "length",
     "y": "length",
     "r": "length",

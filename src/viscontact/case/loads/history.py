@@ -17,6 +17,7 @@ from viscontact.case.loads.course import SentenceError
 from viscontact.case.loads.levels import ForceOrApproach, Level
 from viscontact.case.loads.sentence_history import course_of
 from viscontact.case.loads.sentences import Sentences
+from viscontact.case.ordered_times import refuse_decrease
 from viscontact.case.quantities import (
     Instant,
     Pressure,
@@ -151,7 +152,7 @@ def _read_table(path: Path, names: str | None) -> dict[str, list[float]]:
     try:
         table = read_table(path, names, wanted=("force", "approach"))
         _require_columns(table)
-        _refuse_decrease(table)
+        refuse_decrease(table)
     except ValueError as error:
         raise ValueError(at_key(str(error))) from error
     values = {name: column.tolist() for name, column in table.columns.items()}
@@ -177,14 +178,3 @@ def _require_columns(table: Table) -> None:
         )
     if "force" not in table and "approach" not in table:
         raise ValueError(f"{name}: the column force is missing, or approach in its place")
-
-
-def _refuse_decrease(table: Table) -> None:
-    before = 0.0
-    for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):
-        if now < before:
-            raise ValueError(
-                f"{table.source.name}:{line}: time must not decrease, got "
-                f"{format_quantity(before, 's', 6)} followed by {format_quantity(now, 's', 6)}"
-            )
-        before = now

@@ -19,6 +19,7 @@ from viscontact.case.errors import dotted
 from viscontact.case.loads.course import SentenceError
 from viscontact.case.loads.sentence_history import temperatures_of
 from viscontact.case.loads.sentences import TemperatureSentences
+from viscontact.case.ordered_times import refuse_decrease
 from viscontact.case.quantities import (
     POSITIVE,
     Angle,
@@ -32,7 +33,6 @@ from viscontact.case.quantities import (
 )
 from viscontact.case.section_choice import ChosenBy
 from viscontact.tables import Table, read_table
-from viscontact.units.formatting import format_quantity
 
 _QUANTITY = WithUnit("temperature", POSITIVE)
 
@@ -147,7 +147,7 @@ class Course(TemperatureSection):
             table = read_table(Path(self.file), self.columns, wanted=("temperature",))
             for name in _COLUMNS:
                 _ = table[name]
-            _refuse_decrease(table)
+            refuse_decrease(table)
         except ValueError as error:
             raise ValueError(at_key(str(error))) from error
         return table
@@ -190,17 +190,6 @@ def _history(key: str, times: list[float], temperatures: list[float]) -> Tempera
         return TemperatureHistory(times, temperatures)
     except ValueError as error:
         raise ValueError(f"{key}: {error}") from error
-
-
-def _refuse_decrease(table: Table) -> None:
-    before = 0.0
-    for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):
-        if now < before:
-            raise ValueError(
-                f"{table.source.name}:{line}: time must not decrease, nor be before 0, got "
-                f"{format_quantity(before, 's', 6)} followed by {format_quantity(now, 's', 6)}"
-            )
-        before = now
 
 
 def spelled_temperature(given: Any) -> Any:
