@@ -311,3 +311,37 @@ def test_error_bars_of_a_loop_hold(cells):
     heat = float(ds.friction_heat[4] - ds.friction_heat[2])
     assert abs(heat - exact.heat_of_cycle) < float(ds.friction_heat_error[4])
     assert float(ds.tangential_force_x_error[1]) < 1e-5 * force
+
+
+def test_an_elastic_bulk_modulus_creeps_along_the_surface_as_theory_says():
+    """A flat punch that sticks: q in the ratio of p, shift Q/(4 a) (2 - ν)/(2 G), for any ν.
+
+    By correspondence (2 - ν)/(2 G) becomes J(t) + Φ(t), of (1 - ν)/(2 G) and 1/(2 G), whose ratio
+    is not constant here. The same cells under an elastic body give the factor of the cells.
+    """
+    law, bulk, grid = vc.Zener(1e6, 5e5, 5e5), 3e6, vc.Grid((24, 24), (2.4e-3, 2.4e-3))
+    material, plain = vc.Material(law, bulk_modulus=bulk), vc.Material(vc.Elastic(1e6), 0.0)
+    found, reference = (
+        list(
+            vc.march(
+                vc.FlatPunch(1e-3),
+                body,
+                vc.step(1.0),
+                grid,
+                [0.0, 0.5, 1.0, 4.0],
+                friction=UNCOUPLED,
+                tangential=vc.tangential_step(force_x=0.15),
+                tolerance=1e-8,
+            )
+        )
+        for body in (material, plain)
+    )
+    assert all(state.slip_fraction == 0 for state in found)
+    of_cells = reference[0].tangential_displacement_x * 1e6  # at J + Φ = 2/(2 G)
+    for state in found:
+        crept = float(material.contact_compliance()(state.time) + law(state.time))
+        # Of first order in the cells: 6e-4 on these, 3e-4 and 1.4e-4 on twice and four times them.
+        assert state.tangential_displacement_x == close_to(of_cells * crept, rel=2e-3)
+    late, first = found[-1], found[0]
+    ratio = late.tangential_displacement_x / first.tangential_displacement_x
+    assert abs(ratio / (late.approach / first.approach) - 1) > 0.05

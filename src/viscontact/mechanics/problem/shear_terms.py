@@ -4,14 +4,16 @@ A traction q displaces the surfaces of both bodies along themselves together by
 
     u = Σ ∫ J_m(t - t') d(T_m q)(t'),    T_m = direct K + poisson (κ part),
 
-with the contact compliance J of each body, the same as under pressure, and κ = ν/(1 - ν). Bodies
-whose creep functions are proportional have one term.
+with the contact compliance J of each body, the same as under pressure, and κ = ν/(1 - ν). Where ν
+varies in time, with an elastic bulk modulus, the creep function of the second part is that of
+ν/(2G), which is Φ - J with Φ of 1/(2G): two terms. Terms whose creep functions are proportional are
+one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
@@ -37,18 +39,23 @@ class ShearTerm:
 def shear_terms(
     bodies: Sequence[Material | Layered], clocks: Sequence[Clock]
 ) -> tuple[ShearTerm, ...]:
-    """Terms of the bodies that deform; ValueError where their response is not known."""
+    """Terms of the bodies that deform; ValueError for layers."""
     terms: list[ShearTerm] = []
     for body, clock in zip(bodies, clocks, strict=True):
-        compliance = on_clock(_half_space(body).contact_compliance(), clock)
-        nu = constant_poisson_ratio(_half_space(body))
-        if nu is None:
-            raise ValueError(
-                "friction: a material that creeps with an elastic bulk modulus is not supported "
-                "under friction; give its poisson_ratio"
-            )
-        terms = _with_term(terms, ShearTerm(compliance, 1.0, nu / (1 - nu)))
+        for term in _terms_of(_half_space(body), clock):
+            terms = _with_term(terms, term)
     return tuple(terms)
+
+
+def _terms_of(material: Material, clock: Clock) -> list[ShearTerm]:
+    """Terms of one body."""
+    compliance = on_clock(material.contact_compliance(), clock)
+    nu = constant_poisson_ratio(material)
+    if nu is not None:
+        return [ShearTerm(compliance, 1.0, nu / (1 - nu))]
+    # Φ is the contact compliance at a Poisson's ratio of 0.
+    shear = replace(material, poisson_ratio=0.0, bulk_modulus=None).contact_compliance()
+    return [ShearTerm(compliance, 1.0, -1.0), ShearTerm(on_clock(shear, clock), 0.0, 1.0)]
 
 
 def is_uncoupled(bodies: Sequence[Material | Layered]) -> bool:
