@@ -7,6 +7,7 @@ from pathlib import Path
 from statistics import median
 
 from viscontact.verify import (
+    creeping_friction,
     edges,
     elastic,
     fixed_contact,
@@ -28,7 +29,8 @@ _GROUPS = {
     "contacts that grow on creeping bodies": growing,
     "contacts that shrink, are lost and made again": unloading,
     "contacts of constant or known area": fixed_contact,
-    "friction of a sphere, elastic and creeping": friction,
+    "friction between elastic bodies": friction,
+    "friction on creeping bodies": creeping_friction,
     "temperatures that vary, and ageing": temperature,
     "layers on a rigid base": layers,
     "periodic wavy surfaces": periodic,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from viscontact.verify import (
+    creeping_friction,
     edges,
     elastic,
     fixed_contact,
@@ -29,6 +30,7 @@ CASES: tuple[Case, ...] = (
     *unloading.CASES,
     *fixed_contact.CASES,
     *friction.CASES,
+    *creeping_friction.CASES,
     *temperature.CASES,
     *layers.CASES,
     *periodic.CASES,

@@ -1,0 +1,117 @@
+"""Contacts at rest among the examples of CONTACT, whose published results stand beside ours.
+
+E. A. H. Vollebregt, CONTACT (repository eve70a/CONTACT, commit d431cdb, 2025): `cattaneo.ref_out`
+and the first case of `catt_to_cart.ref_out`, on the same cells. Its lengths are in mm, its forces
+in N, its slip that of one step. Signs of forces are those of the other body.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from closeness import close_to
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+def pulled(
+    *, modulus: float, ratio: float, curvature: float, force: float, part: float, mu: float,
+    grid: vc.Grid,
+) -> vc.ContactState:  # fmt: skip
+    """Two equal bodies [Pa] of gap curvature · r² [1/m], pressed [N], then pulled along x."""
+    radius, body = 0.5 / curvature, vc.Material(vc.Elastic(modulus), ratio)
+    (state,) = vc.march(
+        vc.Paraboloid(radius, radius),
+        body,
+        vc.step(force),
+        grid,
+        [1.0],
+        indenter_material=body,
+        friction=mu,
+        tangential=vc.TangentialHistory([1.0], force_x=part * mu * force),
+        tolerance=1e-8,
+    )
+    return state
+
+
+@pytest.fixture(scope="module")
+def polyethylene() -> vc.ContactState:
+    """Balls of shear modulus 200 MPa and radius 50 mm: `cattaneo.inp`, second case."""
+    return pulled(
+        modulus=200e6,
+        ratio=0.42,
+        curvature=10.0,
+        force=9.1954,
+        part=0.875,
+        mu=0.4,
+        grid=vc.Grid((19, 19), (19 * 0.13333e-3, 19 * 0.13333e-3)),
+    )
+
+
+def test_cattaneo_has_the_totals_of_contact(polyethylene):
+    """To its four digits; ours are 19.9809 µm, 4.39303 MPa, 8.15489 µm, 2.7496 µJ."""
+    state = polyethylene
+    assert state.approach == close_to(1.998e-5, rel=3e-4)
+    assert state.peak_pressure == close_to(4.393e6, rel=1.2e-4)
+    assert state.tangential_displacement_x == close_to(8.155e-6, rel=1e-4)
+    assert state.friction_heat == close_to(2.750e-6, rel=3e-4)
+
+
+def test_cattaneo_sticks_and_slips_in_the_cells_of_contact(polyethylene):
+    """45 cells stick and 132 slip; a quarter of its picture, from the middle to +x and +y."""
+    quarter = polyethylene.slip_state[9:17, 9:17]
+    rows = [
+        "****SSSS",
+        "****SSSS",
+        "****SSSS",
+        "***SSSS.",
+        "SSSSSSS.",
+        "SSSSSS..",
+        "SSSSS...",
+        "SSS.....",
+    ]
+    drawn = ["".join(".*S"[cell] for cell in quarter[:, row]) for row in range(8)]
+    assert drawn == rows
+    assert np.count_nonzero(polyethylene.slip_state == 1) == 45
+    assert np.count_nonzero(polyethylene.slip_state == 2) == 132
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "pressure", "traction", "angle", "slip"),
+    [
+        (-0.2667, -0.9333, 0.901, 0.361, 176.4, 3.47e-3),
+        (0.0, -0.8, 2.65, 1.06, 180.0, 1.81e-3),
+        (-0.6667, -0.6667, 1.36, 0.545, 172.2, 2.77e-3),
+        (-0.4, -0.5334, 3.28, 1.31, 177.4, 0.665e-3),
+    ],
+)
+def test_cattaneo_has_the_cells_of_contact(polyethylene, x, y, pressure, traction, angle, slip):
+    """To the three digits that are printed. The force of its input has the other direction."""
+    i, j = round(x / 0.13333) + 9, round(y / 0.13333) + 9
+    state = polyethylene
+    q = -complex(state.traction_x[i, j], state.traction_y[i, j])
+    assert state.pressure[i, j] == close_to(pressure * 1e6, rel=4e-3)
+    assert abs(q) == close_to(traction * 1e6, rel=4e-3)
+    assert abs(np.angle(q, deg=True)) == close_to(angle, abs=0.06)
+    assert np.hypot(state.slip_x[i, j], state.slip_y[i, j]) == close_to(slip * 1e-3, rel=4e-3)
+
+
+def test_the_first_step_from_cattaneo_to_carter():
+    """Shear modulus 1 MPa, Poisson's ratio 0.28, part 0.657 of what friction carries."""
+    state = pulled(
+        modulus=1e6,
+        ratio=0.28,
+        curvature=2.963,
+        force=0.4705,
+        part=0.657,
+        mu=0.4013,
+        grid=vc.Grid((34, 33), (8.5e-3, 8.25e-3), centre=(0.125e-3, 0.0)),
+    )
+    assert state.approach == close_to(7.258e-5, rel=1e-4)
+    assert state.peak_pressure == close_to(1.834e4, rel=4e-4)
+    assert state.tangential_displacement_x == close_to(1.774e-5, rel=4e-4)
+    assert state.friction_heat == close_to(1.261e-7, rel=1e-3)
+    counts = [np.count_nonzero(state.slip_state == each) for each in (1, 2)]
+    assert counts == [305, 316]
