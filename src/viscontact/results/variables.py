@@ -136,12 +136,12 @@ def _position(axis: str, rank: int) -> Variable:
     return Variable("m", name, label=label, places=Place.LOAD, rank=rank, of=MOTION)
 
 
+#: Places of the scalars of a contact under friction.
+_GRIPPING = Place.CARD | Place.RESPONSE | Place.FIGURE
+
+
 def _shear(
-    units: str,
-    long_name: str,
-    label: str,
-    rank: int,
-    places: Place = Place.CARD | Place.RESPONSE | Place.FIGURE,
+    units: str, long_name: str, label: str, rank: int, places: Place = _GRIPPING
 ) -> Variable:
     """A scalar of a contact under friction."""
     return _scalar(units, long_name, label, rank, places, of=FRICTION)
@@ -233,9 +233,12 @@ SCALARS = {
     "rotation": _shear("rad", "rotation of the body about its axis", "Rotation", 32),
     "stick_area": _shear("m2", "area where the bodies stick", "Stick area", 33),
     "slip_fraction": _shear(
-        "1", "part of the contact that slips", "Slip fraction", 34, Place.CARD | Place.RESPONSE
+        *("1", "part of the contact that slips", "Slip fraction", 34),
+        Place.CARD | Place.RESPONSE,
     ),
-    "friction_heat": _shear("J", "heat of friction since the start", "Friction heat", 35),
+    "friction_heat": _shear(
+        *("J", "heat of friction since the start", "Friction heat", 35), _GRIPPING | Place.KEY
+    ),
     "friction_power": _shear("W", "heat of friction over time", "Friction power", 36),
     "tangential_stiffness_x": _shear(
         "N/m",

@@ -14,8 +14,12 @@ from viscontact.case.errors import KeyPath, dotted
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.units.parsing import split_quantity
 
-#: Sections of a case whose numbers are inputs.
-SECTIONS = ("indenter", "material", "indenter_material", "load", "motion", "temperature")
+#: Sections of a case whose numbers are inputs, and one whose lists are columns of a table.
+SECTIONS = (
+    *("indenter", "material", "indenter_material", "load", "friction", "tangential"),
+    *("motion", "temperature"),
+)
+TABLE_SECTION = "tangential"
 #: Sections whose numbers belong to the computation, not to the contact.
 NO_INPUTS = ("grid", "time", "output", "tolerance", "report", "allowable", "title")
 
@@ -71,12 +75,12 @@ def input_of(case: Case, key: str) -> CaseNumber:
 
 
 def _values_in(data: Any, path: KeyPath, *, deep: bool = False) -> Iterator[tuple[KeyPath, Any]]:
-    """Yield paths and values; lists within lists only if `deep`."""
+    """Yield paths and values; those of tables within the case only if `deep`."""
     if isinstance(data, dict):
         for key, value in data.items():
             yield from _values_in(value, (*path, key), deep=deep)
     elif isinstance(data, list):
-        is_table = any(isinstance(each, list) for each in data)
+        is_table = path[0] == TABLE_SECTION or any(isinstance(each, list) for each in data)
         for number, value in enumerate(data if deep or not is_table else ()):
             yield from _values_in(value, (*path, number), deep=deep)
     else:
