@@ -10,12 +10,6 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.contact.friction.discs import on_circle
 from viscontact.mechanics.contact.friction.problem import SlipProblem
 
-#: Traction that would hold a cell, over what friction carries, at which it is turned.
-FAR_BEYOND = 1.5
-
-#: Part of the friction of all cells that those have which are turned at once.
-FEW = 0.05
-
 
 @dataclass(frozen=True, eq=False)
 class Directions:
@@ -49,26 +43,3 @@ def directions_of(problem: SlipProblem, traction: Floats, slip: Floats) -> Direc
     pull = -(normal * slip).sum(axis=0)
     slips = reached & (pull >= 0)
     return Directions(slips, normal * slips, (problem.bound > 0) & ~slips, pull * slips)
-
-
-def turned(
-    problem: SlipProblem, traction: Floats, slip: Floats, directions: Directions, own: Floats
-) -> tuple[Floats, Directions]:
-    """Turn tractions of few cells that slip far against what they hold; `own` is in [m/Pa].
-
-    Where a cell has little pressure the traction that would hold it lies far beyond its circle, as
-    judged by the compliance `own` of the cell alone. It is put on the circle in that direction.
-    """
-    bound = problem.bound
-    holding = traction - slip / own
-    size = np.hypot(*holding)
-    turns = directions.sticks & (size > FAR_BEYOND * bound)
-    # Many cells move each other: then their own compliance says nothing.
-    if not turns.any() or bound[turns].sum() > FEW * bound.sum():
-        return traction, directions
-    normal = np.divide(holding, size, out=np.zeros(holding.shape), where=turns)
-    pull = np.where(turns, (size - bound) * own, directions.pull)
-    found = Directions(
-        directions.slips | turns, directions.normal + normal, directions.sticks & ~turns, pull
-    )
-    return np.where(turns, normal * bound, traction), found

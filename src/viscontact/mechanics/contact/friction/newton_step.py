@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Singles
-from viscontact.mechanics.contact.friction.directions import Directions, turned
+from viscontact.mechanics.contact.friction.directions import Directions
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
@@ -88,16 +88,12 @@ class NewtonSystem:
 
     def apply(self, step: Singles) -> Singles:
         """The matrix times a step along free directions [-]."""
-        return np.asarray(self.without_curvature(step) + self.curvature * step)
-
-    def without_curvature(self, step: Singles) -> Singles:
-        """Slip along free directions by a change of the traction [-]."""
         found = np.asarray(self.block.search.apply(step) / self.block.edge, np.float32)
         x, y = step
         xx, xy, yy = self.entry
         found[0] += xx * x + xy * y
         found[1] += xy * x + yy * y
-        return self.projected(found)
+        return np.asarray(self.projected(found) + self.curvature * step)
 
     def preconditioned(self, residual: Singles) -> Singles:
         """Approximate inverse: of the half-space where it is soft, of the diagonal elsewhere."""
@@ -170,25 +166,23 @@ def newton_step(
     tolerance: float,
 ) -> NewtonStep:
     """Step from a traction with its residual."""
-    own = OWN * problem.compliance * block.edge + (problem.entry[0] + problem.entry[2]) / 2
-    there, directions = turned(problem, traction, found.slip, found.directions, own)
+    directions = found.directions
     system = NewtonSystem(problem, block, directions)
     # Projected in double precision: most of the slip is along the traction.
     target = directions.projected(found.slip) / -system.unit
     largest = float(np.abs(target).max()) or 1.0
     residual = (target / largest).astype(np.float32)
     steps = ConstrainedSteps(system)
-    # Turned cells and resultants first, of which conjugate gradients change nothing.
-    lacking = problem.constraints.lacking(block.shift.resultants(there))
+    # Resultants first, of which conjugate gradients change nothing.
+    lacking = problem.constraints.lacking(block.shift.resultants(traction))
     first = steps.restoring(lacking / largest)
-    change = ((there - traction) / largest).astype(np.float32)
-    if first.any() or change.any():
-        residual = residual - system.apply(first) - system.without_curvature(change)
+    if first.any():
+        residual = residual - system.apply(first)
     least = max(FORCING, min(LEAST_FORCING, tolerance / max(found.error, TINY)))
     step, motion, iterations = conjugate_gradients(system, steps, residual, least)
     # In double precision, as cells that slip must not leave their circles by rounding.
     along: Floats = (first + step).astype(np.float64) * largest
-    moved = directions.projected(along) + (there - traction)
+    moved = directions.projected(along)
     return NewtonStep(moved, -motion * (largest * system.unit), directions.slips, iterations)
 
 
