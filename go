@@ -161,6 +161,7 @@ BENCHMARKS = {
     "page-answer": "page_answer.py",
     "start-up": "start_up.py",
     "storing": "storing.py",
+    "friction": "friction.py",
     "steady": "steady.py",
     "layers": "layers.py",
     "error-bars": "error_bars.py",

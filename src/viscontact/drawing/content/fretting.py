@@ -49,7 +49,7 @@ def fretting_panels(run: xr.Dataset, times: ArrayLike | None, figure: str) -> li
 def _loop(run: xr.Dataset, force: str, shift: str, cycles: Sequence[FrettingCycle]) -> Panel:
     """Force over shift: the whole way, with the cycles on it."""
     times, x, y = (run[name].values for name in ("time", shift, force))
-    curves = [Curve(x, y, "", FAINT, "thin")]
+    curves = [Curve(x, y, "", FAINT, "thin") if cycles else Curve(x, y, "", FIRST)]
     for number, cycle in enumerate(cycles):
         inside = _between(times, cycle)
         ink = Ink("ordered", number / max(1, len(cycles) - 1)) if len(cycles) > 1 else FIRST
