@@ -33,12 +33,19 @@ def problem(cells):
     aside = 0.0 if "{kind}" == "symmetric" else 2e-6
     across = 0.0 if "{kind}" == "half" else aside / 2
     load = vc.step(0.08, eccentricity_x=aside, eccentricity_y=across)
-    times = vc.uniform_times(2.0, 4)
-    return Problem(vc.Sphere(0.01), material, load, vc.Grid((cells, cells), (2e-3, 2e-3)), times)
+    times, grip = vc.uniform_times(2.0, 4), {{}}
+    if "{kind}".startswith("pulled"):
+        material, load = vc.Material(spring, poisson_ratio=0.5), vc.step(0.08)
+        across = 0.005 if "{kind}" == "pulled aside" else 0.0
+        pull = vc.TangentialHistory([0.5, 2.0], force_x=[0, 0.01], force_y=[0, across])
+        grip = {{"friction": vc.Friction(0.3), "tangential": pull}}
+    grid = vc.Grid((cells, cells), (2e-3, 2e-3))
+    return Problem(vc.Sphere(0.01), material, load, grid, times, **grip)
 
 def march(cells):
     given = problem(cells)
-    for _ in vc.march(given.indenter, given.material, given.load, given.grid, given.times):
+    what = given.indenter, given.material, given.load, given.grid, given.times
+    for _ in vc.march(*what, friction=given.friction, tangential=given.tangential):
         pass
 
 march(64)
@@ -80,6 +87,8 @@ measured = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measure
         ("half", 2048, None),
         ("sum", 1024, None),
         ("layers", 1024, None),
+        ("pulled", 1024, None),
+        ("pulled aside", 1024, None),
     ],
 )
 def test_announced_memory_is_what_a_run_takes(kind: str, cells: int, most: int | None) -> None:
@@ -97,6 +106,7 @@ def test_announced_memory_is_what_a_run_takes(kind: str, cells: int, most: int |
     ("kind", "cells"),
     [
         *((kind, 1024) for kind in ("spring", "series", "symmetric", "sum", "layers")),
+        *((kind, 1024) for kind in ("pulled", "pulled aside")),
         *((kind, 3072) for kind in ("spring", "symmetric")),
     ],
 )

@@ -9,6 +9,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.mechanics.time_integration.boltzmann_sum import BLOCK_STEPS
 from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.slip_step import symmetry_of
 
 #: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra
 #: library differ between processors.
@@ -36,6 +37,10 @@ ARRAYS_OF_TRENDS = 2.375
 #: of slip and of the next state, and single ones; and those of each term of the law.
 ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 26.0, 2.0
 
+#: Arrays of the operators and the search on the block of the contact, 36 a cell there, where it is
+#: half of the grid; of a quarter of it with both symmetries.
+ARRAYS_OF_SLIP_SEARCH = 18.0
+
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 FIELDS_OF_TERM = 7
 
@@ -59,6 +64,7 @@ def run_memory(run: RunSetup) -> float:
     if run.problem.friction is not None:
         kept_there = sum(plan.fields_kept for plan in run.shear_plans)
         whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there
+        whole += ARRAYS_OF_SLIP_SEARCH / (1 if symmetry_of(run) is None else 4)
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 
