@@ -82,7 +82,9 @@ LONG = {"history", "pressure-map", "pressure-profile"}
     "name",
     [
         name if name in LONG else pytest.param(name, marks=pytest.mark.slow)
-        for name in sorted(set(FIGURES) - OF_FRICTION - {"pressure-radial", "exact", "leak-channel"})
+        for name in sorted(
+            set(FIGURES) - OF_FRICTION - {"pressure-radial", "exact", "leak-channel"}
+        )
     ],
 )
 def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> None:
