@@ -57,7 +57,9 @@ _SAID = r"(needs more than 500 MB of memory|takes more than 20 s|cannot be read|
 @pytest.mark.parametrize("name", cases(bombs.WORKBOOKS))
 def test_workbook_that_needs_gigabytes_is_refused(name: str, tmp_path: Path) -> None:
     path = bombs.WORKBOOKS[name](tmp_path / name)
-    said = "known heading|names no|header" if name == "columns repeated.ods" else _SAID
+    # python-calamine 0.5 builds the repeated columns, which newer ones do not.
+    narrow = name == "columns repeated.ods"
+    said = f"known heading|names no|header|{_SAID}" if narrow else _SAID
     with pytest.raises(ValueError, match=rf"^{re.escape(path.name)}\S*: .*({said})[^\n]*$"):
         read_table(path)
 
