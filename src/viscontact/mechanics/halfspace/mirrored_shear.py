@@ -16,7 +16,7 @@ import scipy  # its transforms are imported at their first use
 
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.transforms import fast_length
-from viscontact.mechanics.halfspace.shear_filter import Entries, PairFilter, Parts
+from viscontact.mechanics.halfspace.shear_filter import Entries, PairFilter, Parts, keep
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
 #: True along x and along y if the component x is even there.
@@ -25,6 +25,9 @@ Evenness = tuple[bool, bool]
 
 class MirroredShearFilter(PairFilter):
     """Filter on the quarter with positive coordinates; symbols at k = 0, 1, ... lengths."""
+
+    # The sines of a sequence are the cosines of the same with alternating signs, in reverse: both
+    # components are transformed at once. Along each axis one of them is even and one odd.
 
     def __init__(
         self,
@@ -35,69 +38,59 @@ class MirroredShearFilter(PairFilter):
         even: Evenness,
         **options: Any,
     ) -> None:
-        super().__init__(shape, lengths, symbol, **options)
-        self._even = even
+        odd = not even[0], not even[1]
+        xx, xy, yy = symbol
+        # Cosines of sines change the sign along each axis, sines of cosines along none: both
+        # components have the same sign.
+        sign = 1 if even[0] == even[1] else -1
+        crossed = sign * _ordered(xy[1:-1, 1:-1], even)
+        entries = _ordered(xx, even)[:-1, :-1], crossed, _ordered(yy, odd)[:-1, :-1]
+        super().__init__(shape, lengths, entries, **options)
+        self._signs = np.stack([_signs(shape, each) for each in (even, odd)])
 
     def apply(self, fields: Numbers) -> Numbers:
         """The pair of fields of another pair, in the precision of the filter."""
+        (nx, ny), transforms = self.shape, self._transforms
         size = float(np.abs(fields).max(initial=0.0)) or 1.0
-        odd = (not self._even[0], not self._even[1])
-        x, y = (
-            self._spectrum(field, even, size)
-            for field, even in zip(fields, (self._even, odd), strict=True)
-        )
+        padded = self._kept((2, *self._lengths), self._number)
+        lines = padded[:, :nx]
+        cells = lines[..., :ny]
+        np.divide(fields, size, out=cells, casting="same_kind")
+        cells *= self._signs
+        lines[..., ny:] = 0
+        keep(lines, transforms.cosine_forward(lines, 2))
+        padded[:, nx:] = 0
+        keep(padded, transforms.cosine_forward(padded, 1))
+        self._multiply(padded)
+        keep(padded, transforms.cosine_inverse(padded, 1))
+        keep(lines, transforms.cosine_inverse(lines, 2))
+        return np.asarray(cells * self._number.type(size) * self._signs)
+
+    def _multiply(self, spectrum: Numbers) -> None:
+        """Multiply the spectra of both components by the matrices."""
         xx, xy, yy = self._symbol
-        # Cosines begin at k = 0, sines at k = 1; the symbols have both ends.
-        of_x, of_y = (self._span(even) for even in (self._even, odd))
-        shared_x, shared_y = (self._shared(even) for even in (self._even, odd))
-        inner = (slice(1, -1), slice(1, -1))
-        found_x, found_y = xx[of_x] * x, yy[of_y] * y
-        # Cosines of sines change the sign along each axis, sines of cosines along none: both
-        # components have the same sign.
-        sign = self._number.type(1 if self._even[0] == self._even[1] else -1)
-        crossed = sign * xy[inner]
-        found_x[shared_x] += crossed * y[shared_y]
-        found_y[shared_y] += crossed * x[shared_x]
-        return np.stack([self._field(found_x, self._even, size), self._field(found_y, odd, size)])
+        x, y = spectrum
+        # Waves that have cosines and sines are in reverse order in the other component.
+        shared_x, shared_y = x[1:, 1:], y[:0:-1, :0:-1]
+        along_x, along_y = xy * shared_y, xy * shared_x
+        x *= xx
+        y *= yy
+        shared_x += along_x
+        shared_y += along_y
 
-    def _spectrum(self, field: Numbers, even: Evenness, size: float) -> Numbers:
-        """Transform of a field over a size, padded."""
-        nx, ny = self.shape
-        along, across = self._lengths
-        lines = np.zeros((nx, across), self._number)
-        np.divide(field, size, out=lines[:, :ny], casting="same_kind")
-        lines = self._forward(lines, 1, even[1])
-        if along == nx:
-            return self._forward(lines, 0, even[0])
-        padded = np.zeros((along, across), self._number)
-        padded[:nx] = lines
-        return self._forward(padded, 0, even[0])
 
-    def _field(self, spectrum: Numbers, even: Evenness, size: float) -> Numbers:
-        """Field of a transform, times a size."""
-        nx, ny = self.shape
-        lines = np.ascontiguousarray(self._inverse(spectrum, 0, even[0])[:nx])
-        return np.asarray(self._inverse(lines, 1, even[1])[:, :ny] * self._number.type(size))
+def _ordered(symbol: Numbers, even: Evenness) -> Numbers:
+    """Entries in the order of the transforms: cosines upwards, sines downwards."""
+    return np.ascontiguousarray(symbol[tuple(slice(None, None, 1 if e else -1) for e in even)])
 
-    def _forward(self, field: Numbers, axis: int, even: bool) -> Numbers:
-        transforms = self._transforms
-        return (transforms.cosine_forward if even else transforms.sine_forward)(field, axis)
 
-    def _inverse(self, spectrum: Numbers, axis: int, even: bool) -> Numbers:
-        transforms = self._transforms
-        return (transforms.cosine_inverse if even else transforms.sine_inverse)(spectrum, axis)
-
-    @staticmethod
-    def _span(even: Evenness) -> tuple[slice, slice]:
-        """Part of a symbol that belongs to a spectrum."""
-        along, across = (slice(0, -1) if each else slice(1, None) for each in even)
-        return along, across
-
-    @staticmethod
-    def _shared(even: Evenness) -> tuple[slice, slice]:
-        """Part of a spectrum that has both cosines and sines."""
-        along, across = (slice(1, None) if each else slice(0, -1) for each in even)
-        return along, across
+def _signs(shape: tuple[int, int], even: Evenness) -> Numbers:
+    """Signs that alternate along axes of odd sequences."""
+    x, y = (
+        np.ones(count, np.float32) if each else 1 - 2 * (np.arange(count, dtype=np.float32) % 2)
+        for count, each in zip(shape, even, strict=True)
+    )
+    return np.outer(x, y)
 
 
 def mirrored_shear_convolution(tables: ShearTables, even: Evenness, **options: Any) -> Parts:

@@ -43,6 +43,14 @@ class PairFilter(ABC):
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._number = np.dtype(np.float32 if single else np.float64)
         self._symbol = tuple(part.astype(self._number) for part in symbol)
+        #: Arrays of transforms by shape and kind, made once: new memory costs more than they do.
+        self._arrays: dict[tuple[tuple[int, ...], np.dtype[Any]], Numbers] = {}
+
+    def _kept(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> Numbers:
+        """Array of this filter, of any content."""
+        if (shape, kind) not in self._arrays:
+            self._arrays[shape, kind] = np.empty(shape, kind)
+        return self._arrays[shape, kind]
 
     @abstractmethod
     def apply(self, fields: Numbers) -> Numbers:
@@ -73,23 +81,35 @@ class ShearFilter(PairFilter):
 
     def apply(self, fields: Numbers) -> Numbers:
         """The pair of fields of another pair, in the precision of the filter."""
-        nx, ny = self.shape
+        (nx, ny), transforms = self.shape, self._transforms
         along, across = self._lengths
         # In single precision, with its few exponents, fields are transformed at order one.
         size = float(np.abs(fields).max(initial=0.0)) or 1.0
-        padded = np.zeros((2, nx, across), self._number)
+        padded = self._kept((2, nx, across), self._number)
         np.divide(fields, size, out=padded[..., :ny], casting="same_kind")
-        kind = np.result_type(self._number, np.complex64)
-        lines = np.zeros((2, nx, across // 2 + 1), kind)
-        spectrum = np.zeros((2, along, across // 2 + 1), kind)
-        spectrum[:, :nx] = self._transforms.real_forward(padded, lines, 2)
-        spectrum = self._transforms.complex_forward(spectrum, 1)
+        padded[..., ny:] = 0
+        kind = np.dtype(np.result_type(self._number, np.complex64))
+        spectrum = self._kept((2, along, across // 2 + 1), kind)
+        lines = spectrum[:, :nx]
+        keep(lines, transforms.real_forward(padded, lines, 2))
+        spectrum[:, nx:] = 0
+        keep(spectrum, transforms.complex_forward(spectrum, 1))
         xx, xy, yy = self._symbol
         x, y = spectrum
-        spectrum = np.stack([xx * x + xy * y, xy * x + yy * y])
-        lines = np.ascontiguousarray(self._transforms.complex_inverse(spectrum, 1)[:, :nx])
-        found = self._transforms.real_inverse(lines, padded, 2)[..., :ny]
+        along_x, along_y = xy * y, xy * x
+        x *= xx
+        x += along_x
+        y *= yy
+        y += along_y
+        keep(spectrum, transforms.complex_inverse(spectrum, 1))
+        found = transforms.real_inverse(lines, padded, 2)[..., :ny]
         return np.asarray(found * self._number.type(size))
+
+
+def keep(array: Numbers, found: Numbers) -> None:
+    """Write a transform to the array that it was made of, if it is not there."""
+    if not np.may_share_memory(array, found):
+        array[...] = found
 
 
 def shear_convolution(tables: ShearTables, periodic: tuple[bool, bool], **options: Any) -> Parts:

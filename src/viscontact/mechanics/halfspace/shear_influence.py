@@ -85,12 +85,14 @@ def shear_tables(grid: Grid) -> ShearTables:
 
 def along_coefficient(x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     """X: displacement along x [m] at x, y [m] per unit κ, J and traction along x."""
-    return _over_cell(x, y, cell_size, _along_corner, lambda x, y, r: x * x / r**3)
+    return _over_cell(x, y, cell_size, _along_corner, lambda x, y, r: x * x / (r * r * r))
 
 
 def cross_coefficient(x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     """Z: displacement along y [m] at x, y [m] per unit κ, J and traction along x, and reversed."""
-    return _over_cell(x, y, cell_size, lambda x, y: -np.hypot(x, y), lambda x, y, r: x * y / r**3)
+    return _over_cell(
+        x, y, cell_size, lambda x, y: -np.hypot(x, y), lambda x, y, r: x * y / (r * r * r)
+    )
 
 
 def _along_corner(x: Floats, y: Floats) -> Floats:
@@ -119,7 +121,8 @@ def _over_cell(
     for node_x, weight_x in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
         for node_y, weight_y in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
             there = far_x + a * node_x, far_y + b * node_y
-            total += weight_x * weight_y * kernel(*there, np.hypot(*there))
+            distance = np.sqrt(there[0] ** 2 + there[1] ** 2)
+            total += weight_x * weight_y * kernel(*there, distance)
     found[~near] = total * (a * b)
     return found / np.pi
 

@@ -36,10 +36,23 @@ class Directions:
         return held - x * x, -x * y, held - y * y
 
 
-def directions_of(problem: SlipProblem, traction: Floats, slip: Floats) -> Directions:
-    """Free directions of a traction: cells on the circle that slip against it are held there."""
+@dataclass(frozen=True, eq=False)
+class ReachedCircles:
+    """Cells under pressure, and those whose traction has reached its circle."""
+
+    held: Bools
+    reached: Bools
+    normal: Floats  # unit vectors along the traction there, 0 elsewhere; (2, nx, ny)
+
+    def directions(self, slip: Floats) -> Directions:
+        """Free directions under a slip: cells on the circle that slip against it are held there."""
+        pull = -(self.normal * slip).sum(axis=0)
+        slips = self.reached & (pull >= 0)
+        return Directions(slips, self.normal * slips, self.held & ~slips, pull * slips)
+
+
+def reached_circles(problem: SlipProblem, traction: Floats) -> ReachedCircles:
+    """Circles that a traction has reached."""
     reached = on_circle(traction, problem.bound)
     normal = np.divide(traction, problem.bound, out=np.zeros(traction.shape), where=reached)
-    pull = -(normal * slip).sum(axis=0)
-    slips = reached & (pull >= 0)
-    return Directions(slips, normal * slips, (problem.bound > 0) & ~slips, pull * slips)
+    return ReachedCircles(problem.bound > 0, reached, normal)

@@ -24,17 +24,15 @@ MOST_ROUNDS = 60
 BALANCED = 1e-13
 
 
-def clipped(traction: Floats, bound: Floats, held: Bools | bool = False) -> Floats:
-    """Nearest tractions on the discs; on their circles in cells that are held there."""
-    size = np.hypot(*traction)
-    outside = (size > bound) | (held & (size > 0))
-    factor = np.divide(bound, size, out=np.ones(size.shape), where=outside)
-    return np.asarray(traction * factor)
+def lengths(pairs: Floats) -> Floats:
+    """Lengths of pairs of components."""
+    x, y = pairs
+    return np.asarray(np.sqrt(x * x + y * y))
 
 
 def on_circle(traction: Floats, bound: Floats) -> Bools:
     """Cells under pressure whose traction has reached what friction carries."""
-    return np.asarray((bound > 0) & (np.hypot(*traction) >= bound * (1 - ON_CIRCLE)))
+    return np.asarray((bound > 0) & (lengths(traction) >= bound * (1 - ON_CIRCLE)))
 
 
 def balanced(
@@ -48,11 +46,10 @@ def balanced(
 
     Cells that slip do not change, or else stay on their circles, if that restores the resultants.
     """
-    found = clipped(traction, bound)
-    if not constraints.free.any():
-        return found
-    most = BALANCED * float(bound.sum()) * shift.cell_area
     nowhere = np.zeros(slips.shape, bool)
+    if not constraints.free.any():
+        return CutOff(traction, bound, nowhere).traction
+    most = BALANCED * float(bound.sum()) * shift.cell_area
     for weight, held in (
         (np.where(slips, 0.0, bound), slips),
         (bound, slips),
@@ -76,25 +73,24 @@ def _nearest(
     """Nearest tractions by distances over the weights, and what the resultants lack [N]."""
     # They are those of q + weight (rigid motion), cut off at the circles. The motion solves a
     # concave problem of three numbers by Newton's method, with shorter steps where that is no gain.
-    motion, found = np.zeros(3), clipped(traction, bound, held)
-    off = _off(found, shift, constraints)
+    motion, found = np.zeros(3), CutOff(traction, bound, held)
+    off = _off(found.traction, shift, constraints)
     for _ in range(MOST_ROUNDS):
         if off <= most:
             break
-        beyond = traction + weight * shift.field(motion)
-        gram = shift.gram(*_slopes(beyond, bound, weight, held)) * shift.cell_area
+        gram = shift.gram(*found.slopes(weight)) * shift.cell_area
         inverse = pseudo_inverse(gram, constraints.free, constraints.arm)
-        step = inverse @ constraints.lacking(shift.resultants(found))
+        step = inverse @ constraints.lacking(shift.resultants(found.traction))
         for _ in range(MOST_HALVINGS):
-            trial = clipped(traction + weight * shift.field(motion + step), bound, held)
-            remaining = _off(trial, shift, constraints)
+            trial = CutOff(traction + weight * shift.field(motion + step), bound, held)
+            remaining = _off(trial.traction, shift, constraints)
             if remaining < off:
                 break
             step = step / 2
         else:
             break
         motion, found, off = motion + step, trial, remaining
-    return found, off
+    return found.traction, off
 
 
 def _off(traction: Floats, shift: RigidShift, constraints: ShiftConstraints) -> float:
@@ -103,14 +99,19 @@ def _off(traction: Floats, shift: RigidShift, constraints: ShiftConstraints) -> 
     return float(np.linalg.norm(constraints.lacking(shift.resultants(traction)) / arms))
 
 
-def _slopes(
-    beyond: Floats, bound: Floats, weight: Floats, held: Bools
-) -> tuple[Floats, Floats, Floats]:
-    """Change of cut off tractions with a rigid motion: entries xx, xy and yy for each cell."""
-    size = np.hypot(*beyond)
-    outside = (size > bound) | (held & (size > 0))
-    # Beyond the circle only the tangent is left, shortened.
-    share = np.divide(bound, size, out=np.ones(size.shape), where=outside)
-    x, y = np.divide(beyond, size, out=np.zeros(beyond.shape), where=outside)
-    left = weight * share
-    return left * (1 - x * x), -left * x * y, left * (1 - y * y)
+class CutOff:
+    """Nearest tractions on the discs; on their circles in cells that are held there."""
+
+    def __init__(self, beyond: Floats, bound: Floats, held: Bools) -> None:
+        self._beyond, self._size = beyond, lengths(beyond)
+        self._outside = (self._size > bound) | (held & (self._size > 0))
+        self._share = np.divide(bound, self._size, out=np.ones(bound.shape), where=self._outside)
+        self.traction: Floats = beyond * self._share
+
+    def slopes(self, weight: Floats) -> tuple[Floats, Floats, Floats]:
+        """Change with a rigid motion by a weight: entries xx, xy and yy for each cell."""
+        # Beyond the circle only the tangent is left, shortened.
+        none = np.zeros(self._beyond.shape)
+        x, y = np.divide(self._beyond, self._size, out=none, where=self._outside)
+        left = weight * self._share
+        return left * (1 - x * x), -left * x * y, left * (1 - y * y)

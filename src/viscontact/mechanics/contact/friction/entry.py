@@ -44,15 +44,17 @@ def entry_compliance(
     contact.
     """
     enters = (pressure > 0) & (before <= 0) & np.isfinite(gap)
+    found = np.zeros((3, *gap.shape))
     if not enters.any():
-        return np.zeros((3, *gap.shape))
-    compliance = np.divide(gap, pressure, out=np.zeros(gap.shape), where=enters)
-    along, across = np.ones(gap.shape), np.full(gap.shape, 1 + kappa)
+        return found
+    compliance = np.maximum(gap[enters] / pressure[enters], 0.0)
+    along, across = np.ones(compliance.size), np.full(compliance.size, 1 + kappa)
     if not plane:
-        along[enters], across[enters] = _ratios(_radii(enters, before > 0, gap), kappa)
-    x, y = _edge_normal(gap, cell_size)
+        along, across = _ratios(_radii(enters, before > 0, gap), kappa)
+    x, y = _edge_normal(gap, enters, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
-    return np.stack([xx, (along - across) * x * y, yy]) * np.maximum(compliance, 0.0)
+    found[:, enters] = np.stack([xx, (along - across) * x * y, yy]) * compliance
+    return found
 
 
 def _radii(enters: Bools, held: Bools, gap: Floats) -> Floats:
@@ -81,13 +83,18 @@ def _ratios(radii: Floats, kappa: float) -> tuple[Floats, Floats]:
     return along, across
 
 
-def _edge_normal(gap: Floats, cell_size: tuple[float, float]) -> Floats:
-    """Unit vectors along which the gap opens; along x where it is level or ends."""
-    slopes = np.zeros((2, *gap.shape))
-    for axis, cell in enumerate(cell_size):
-        if gap.shape[axis] > 1:
+def _edge_normal(gap: Floats, enters: Bools, cell_size: tuple[float, float]) -> Floats:
+    """Unit vectors in cells that enter along which the gap opens; along x where it is level."""
+    cells = np.stack(np.nonzero(enters))
+    slopes = np.zeros(cells.shape)
+    for axis, (cell, count) in enumerate(zip(cell_size, gap.shape, strict=True)):
+        before, after = cells.copy(), cells.copy()
+        before[axis] = np.maximum(cells[axis] - 1, 0)
+        after[axis] = np.minimum(cells[axis] + 1, count - 1)
+        if count > 1:
             with np.errstate(invalid="ignore"):
-                slopes[axis] = np.gradient(gap, cell, axis=axis)
+                rise = gap[tuple(after)] - gap[tuple(before)]
+            slopes[axis] = rise / ((after[axis] - before[axis]) * cell)
     known = np.isfinite(slopes).all(axis=0)
     slopes = np.where(known, slopes, 0.0)
     length = np.hypot(*slopes)

@@ -30,6 +30,9 @@ FALLBACKS = (1.0, 0.3)
 #: Relative difference of objectives that is rounding.
 ROUNDING = 1e-11
 
+#: Residual up to which tractions are judged in double precision.
+CLOSE = 1e-3
+
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
 
@@ -56,12 +59,16 @@ def solve_slip(
         for part in (*PARTS, FALLBACKS[failures % len(FALLBACKS)]):
             trial = traction + part * step.traction
             trial = balanced(trial, problem.bound, shift, problem.constraints, step.slips)
-            judged = _judged(problem, block, trial, found.motion + part * step.motion)
+            motion = found.motion + part * step.motion
+            judged = _judged_near(problem, block, (traction, found), trial, motion)
             convolutions += 1
             if _is_better(judged, found):
                 break
         else:
             failures += 1
+        if judged.error <= tolerance and found.error > CLOSE:
+            judged = _judged(problem, block, trial, judged.motion)
+            convolutions += 1
         traction, found = trial, judged
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
 
@@ -79,6 +86,21 @@ def _judged(
 ) -> SlipResidual:
     """Residual of a traction by a fresh convolution, near a motion."""
     return slip_residual(problem, block.shift, traction, block.convolution.apply(traction), motion)
+
+
+def _judged_near(
+    problem: SlipProblem,
+    block: ShearBlock,
+    known: tuple[Floats, SlipResidual],
+    traction: Floats,
+    motion: Floats,
+) -> SlipResidual:
+    """Residual of a traction near a known one: of the change, in single precision, while far."""
+    before, found = known
+    if found.error <= CLOSE:
+        return _judged(problem, block, traction, motion)
+    moved = found.unit_displacement + block.search.apply(traction - before)
+    return slip_residual(problem, block.shift, traction, moved, motion)
 
 
 def _solution(

@@ -13,8 +13,9 @@ from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProble
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
 
-#: Part of the residual that the conjugate gradients leave, and the largest near the solution.
-FORCING, LEAST_FORCING = 3e-2, 0.3
+#: Least and largest part of the residual that the conjugate gradients leave, and its ratio to the
+#: residual between them: far away, where cells that slip are found, more would be in vain.
+LEAST_LEFT, MOST_LEFT, LEFT = 0.01, 0.3, 5.0
 
 #: Search directions of one step.
 MAX_DIRECTIONS = 120
@@ -89,10 +90,11 @@ class NewtonSystem:
     def apply(self, step: Singles) -> Singles:
         """The matrix times a step along free directions [-]."""
         found = np.asarray(self.block.search.apply(step) / self.block.edge, np.float32)
-        x, y = step
-        xx, xy, yy = self.entry
-        found[0] += xx * x + xy * y
-        found[1] += xy * x + yy * y
+        if self.problem.enters:
+            x, y = step
+            xx, xy, yy = self.entry
+            found[0] += xx * x + xy * y
+            found[1] += xy * x + yy * y
         return np.asarray(self.projected(found) + self.curvature * step)
 
     def preconditioned(self, residual: Singles) -> Singles:
@@ -169,7 +171,7 @@ def newton_step(
     directions = found.directions
     system = NewtonSystem(problem, block, directions)
     # Projected in double precision: most of the slip is along the traction.
-    target = directions.projected(found.slip) / -system.unit
+    target = found.along / -system.unit
     largest = float(np.abs(target).max()) or 1.0
     residual = (target / largest).astype(np.float32)
     steps = ConstrainedSteps(system)
@@ -178,12 +180,18 @@ def newton_step(
     first = steps.restoring(lacking / largest)
     if first.any():
         residual = residual - system.apply(first)
-    least = max(FORCING, min(LEAST_FORCING, tolerance / max(found.error, TINY)))
+    least = _forcing(found.error, tolerance)
     step, motion, iterations = conjugate_gradients(system, steps, residual, least)
     # In double precision, as cells that slip must not leave their circles by rounding.
     along: Floats = (first + step).astype(np.float64) * largest
     moved = directions.projected(along)
     return NewtonStep(moved, -motion * (largest * system.unit), directions.slips, iterations)
+
+
+def _forcing(error: float, tolerance: float) -> float:
+    """Part of a residual that conjugate gradients leave."""
+    wanted = min(max(LEFT * error, LEAST_LEFT), MOST_LEFT)
+    return max(wanted, min(MOST_LEFT, tolerance / max(error, TINY)))
 
 
 def conjugate_gradients(

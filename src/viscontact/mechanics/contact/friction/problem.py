@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from viscontact.backend.arrays import Flags, Floats
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
@@ -26,12 +27,18 @@ class SlipProblem:
 
     def slip_before_shift(self, traction: Floats, unit_displacement: Floats) -> Floats:
         """Slip of the surface under a body that does not move [m], (2, nx, ny)."""
-        x, y = traction
-        xx, xy, yy = self.entry
         found: Floats = self.compliance * unit_displacement + self.past
-        found[0] += xx * x + xy * y
-        found[1] += xy * x + yy * y
+        if self.enters:
+            x, y = traction
+            xx, xy, yy = self.entry
+            found[0] += xx * x + xy * y
+            found[1] += xy * x + yy * y
         return found
+
+    @cached_property
+    def enters(self) -> bool:
+        """True if any cell enters."""
+        return bool(self.entry.any())
 
 
 @dataclass(frozen=True, eq=False)

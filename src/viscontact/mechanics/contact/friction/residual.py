@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from viscontact.backend.arrays import Floats
-from viscontact.mechanics.contact.friction.directions import Directions, directions_of
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.mechanics.contact.friction.directions import Directions, reached_circles
+from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.problem import SlipProblem
-from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, pseudo_inverse
+from viscontact.mechanics.contact.friction.rigid_shift import (
+    RigidShift,
+    ShiftConstraints,
+    pseudo_inverse,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +20,9 @@ class SlipResidual:
     """Slip under a traction with the rigid motion that fits best, and its errors."""
 
     motion: Floats
+    unit_displacement: Floats  # T q, that of a unit compliance [Pa m]
     slip: Floats  # w [m], (2, nx, ny)
+    along: Floats  # its components along free directions [m]
     directions: Directions
     error: float  # largest deviation from the friction law over the largest displacement [-]
     duality_gap: float  # over the energy of the step [-]
@@ -37,46 +42,58 @@ def slip_residual(
     A guess of the motion tells which cells slip; without one all do that have reached their circle.
     """
     before = problem.slip_before_shift(traction, unit_displacement)
-    motion = problem.constraints.motions if guess is None else guess
-    against = -traction if guess is None else before - shift.field(motion)
-    directions = directions_of(problem, traction, against)
-    motion = _fitted(problem, shift, before, directions, motion)
-    slip = before - shift.field(motion)
-    directions = directions_of(problem, traction, slip)
-    touching = problem.bound > 0
-    wrong = np.hypot(*directions.projected(slip))
-    largest = float(np.hypot(*before).max(initial=0.0, where=touching))
-    moved = float(np.hypot(*shift.field(motion)).max(initial=0.0, where=touching))
-    scale = max(problem.displacement_scale, largest, moved)
-    gap = _gap(problem, traction, slip, scale)
-    given = shift.field(problem.constraints.motions)
-    objective = float((traction * ((before + problem.past) / 2 - given)).sum())
-    error = float(wrong.max()) / scale
-    return SlipResidual(motion, slip, directions, error, gap, objective, scale)
-
-
-def _fitted(
-    problem: SlipProblem,
-    shift: RigidShift,
-    before: Floats,
-    directions: Directions,
-    motion: Floats,
-) -> Floats:
-    """Motion with the least slip along free directions."""
     constraints = problem.constraints
-    if not constraints.free.any():
-        return motion
+    motion = constraints.motions if guess is None else guess
+    circles = reached_circles(problem, traction)
+    slip = before - shift.field(motion)
+    if constraints.free.any():
+        directions = circles.directions(-traction if guess is None else slip)
+        motion = motion + _fitting(constraints, shift, slip, directions)
+    rigid = shift.field(motion)
+    slip = before - rigid
+    directions = circles.directions(slip)
+    along = directions.projected(slip)
+    largest = max(_largest(before, circles.held), _largest(rigid, circles.held))
+    scale = max(problem.displacement_scale, largest)
+    work = _product(traction, before) + _product(traction, problem.past)
+    given = float(shift.resultants(traction) @ constraints.motions) / shift.cell_area
+    return SlipResidual(
+        motion,
+        unit_displacement,
+        slip,
+        along,
+        directions,
+        error=float(lengths(along).max()) / scale,
+        duality_gap=_gap(problem, traction, slip, scale),
+        objective=work / 2 - given,
+        displacement=scale,
+    )
+
+
+def _fitting(
+    constraints: ShiftConstraints, shift: RigidShift, slip: Floats, directions: Directions
+) -> Floats:
+    """Change of the motion that leaves the least slip along free directions."""
     gram = shift.gram(*directions.matrix) * shift.cell_area
-    lacking = shift.resultants(directions.projected(before - shift.field(motion)))
+    lacking = shift.resultants(directions.projected(slip))
     # As a correction, so that a motion that no cell determines is unchanged.
-    return motion + pseudo_inverse(gram, constraints.free, constraints.arm) @ lacking
+    return pseudo_inverse(gram, constraints.free, constraints.arm) @ lacking
+
+
+def _largest(pairs: Floats, cells: Bools) -> float:
+    """Largest length of pairs in some cells."""
+    return float(lengths(pairs).max(initial=0.0, where=cells))
+
+
+def _product(one: Floats, other: Floats) -> float:
+    """Sum of products over all components and cells."""
+    return float((one * other).sum())
 
 
 def _gap(problem: SlipProblem, traction: Floats, slip: Floats, scale: float) -> float:
     """Σ (μ p |w| + q·w) over the work of all friction on the largest displacement [-]."""
     # Primal less dual objective of the convex problem: it is not negative, is zero at the solution
     # only, and bounds 1/2 (q - q*)·(J T + D) (q - q*).
-    here = problem.bound > 0
-    found = problem.bound * np.hypot(*slip) + (traction * slip).sum(axis=0)
+    found = _product(problem.bound, lengths(slip)) + _product(traction, slip)
     most = float(problem.bound.sum()) * scale
-    return max(float(found[here].sum()), 0.0) / most if most > 0 else 0.0
+    return max(found, 0.0) / most if most > 0 else 0.0
