@@ -10,6 +10,7 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.checks.friction import Grip
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import prepare_run
 
@@ -165,6 +166,20 @@ def test_inaccurate_steps_warn_once(tangential, load, said):
     with pytest.warns(vc.AccuracyWarning) as caught:
         march(load, tangential, [0.2, 0.6, 0.8, 1.0])
     assert sum(said in str(each.message) for each in caught) == 1
+
+
+def test_a_ring_that_is_narrow_only_while_the_force_is_small_is_not_warned_of():
+    ramp = vc.TangentialHistory([0.0, 1.0], force_x=[0.0, 0.027])
+    fine = vc.Grid((60, 60), GRID.size)
+    states = march(vc.step(0.1), ramp, np.linspace(0.1, 1.0, 10), grid=fine)
+    assert 0 < states[0].slip_fraction < 0.1
+    assert states[-1].slip_fraction > 0.5
+    assert not any("cells wide" in text for state in states for text in state.warnings)
+
+
+def test_ring_of_a_round_contact_and_of_a_line_in_cells():
+    assert Grip(0.0, 1.0, 2.0, 314, 314 - 201, 314).ring == close_to(2.0, rel=1e-2)
+    assert Grip(0.0, 1.0, 2.0, 100, 40, 100, on_line=True).ring == 20
 
 
 @pytest.mark.filterwarnings("default::viscontact.AccuracyWarning")

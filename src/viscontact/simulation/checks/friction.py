@@ -53,7 +53,7 @@ def check_friction(problem: Problem) -> None:
         raise ValueError(
             "friction: the materials of the bodies are not alike and not all of Poisson's ratio "
             "0.5, so that pressure moves the surface along itself, which is not supported; give "
-            "Friction(coefficient, coupling=False) to neglect it"
+            "Friction(coefficient, coupling=False), in a case file 'coupling: false', to neglect it"
         )
     check_grip(problem)
 
@@ -101,26 +101,24 @@ class Grip:
     cells: int  # in contact
     slipping: int  # of these
     before: int  # in contact before the step
+    on_line: bool = False  # the cells are those of a line contact
 
     @property
     def ring(self) -> float:
-        """Cells across the ring that slips around a round contact."""
+        """Cells across the ring that slips around a round contact, or at each end of a line."""
+        if self.on_line:
+            return self.slipping / 2
         radius = math.sqrt(self.cells / math.pi)
         return radius - math.sqrt((self.cells - self.slipping) / math.pi)
 
 
 def grip_warnings(grip: Grip) -> dict[str, str]:
-    """Warn of a force close to sliding, a ring of few cells, and a contact that grows at once."""
+    """Warn of a force close to sliding, and of a contact that grows at once."""
     at, found = f"at t = {format_quantity(grip.time, 's', 4)}", {}
     if grip.force > NEARLY_SLIDES * grip.carried:
         found["nearly slides"] = (
             f"{at} the tangential force is within 1 % of what friction carries; the shift of the "
             "body depends on details there"
-        )
-    if 0 < grip.slipping < grip.cells and grip.ring < LEAST_RING:
-        found["slip ring"] = (
-            f"{at} the part of the contact that slips is {grip.ring:.1f} cells wide; slip and "
-            "heat need finer cells"
         )
     if grip.force > 0 and grip.cells > LARGE_GROWTH * grip.before > 0:
         found["growth under shear"] = (
@@ -128,6 +126,16 @@ def grip_warnings(grip: Grip) -> dict[str, str]:
             f"{grip.cells / grip.before - 1:.0%} under a tangential force; use more steps there"
         )
     return found
+
+
+def ring_warnings(widest: float) -> dict[str, str]:
+    """Warn of a ring that slips and is narrow, in cells, where it is widest in a run."""
+    if not 0 < widest < LEAST_RING:
+        return {}
+    return {
+        "slip ring": f"the part of the contact that slips is at most {widest:.1f} cells wide; slip "
+        "and heat need finer cells"
+    }
 
 
 def check_grip(problem: Problem) -> None:

@@ -19,10 +19,11 @@ from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.mechanics.contact.friction.region import ShearDomain
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.checks.friction import grip_warnings, ring_warnings
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearHistory
-from viscontact.simulation.transient.slip_results import slip_fields, slip_scalars, slip_warnings
+from viscontact.simulation.transient.slip_results import grip_of, slip_fields, slip_scalars
 from viscontact.simulation.transient.slip_state import SlipState, StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import (
     SlipStep,
@@ -37,8 +38,9 @@ from viscontact.simulation.transient.step_solution import StepSolution
 class Frictionless:
     """Contact without friction, which carries no traction."""
 
-    #: Warnings of the last step, by kind.
+    #: Warnings of the last step and of the whole run, by kind.
     warnings: Mapping[str, str] = {}
+    warnings_at_end: Mapping[str, str] = {}
 
     def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
         """Return no scalars and fields."""
@@ -65,8 +67,14 @@ class FrictionalContact:
         self._state = SlipState.at_first(run.open_gap)
         #: Change of the traction [Pa] in the last step, and its duration [s].
         self._trend = np.zeros(self._state.traction.shape), 0.0
+        self._widest = 0.0  # ring that has slipped, in cells
         #: Warnings of the last step, by kind.
         self.warnings: dict[str, str] = {}
+
+    @property
+    def warnings_at_end(self) -> dict[str, str]:
+        """Warnings of the whole run, by kind."""
+        return ring_warnings(self._widest)
 
     def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
         """Solve the tractions at the end of a step; return scalars and fields of its state."""
@@ -93,7 +101,8 @@ class FrictionalContact:
         self._history.accept(known.response, after.traction)
         self._trend, self._state = (after.traction - before.traction, step.duration), after
         scalars = slip_scalars(grid, step.duration, before, after, found)
-        self.warnings = slip_warnings(known, after, scalars["slip_fraction"])
+        grip = grip_of(grid, known, after, scalars["slip_fraction"])
+        self.warnings, self._widest = grip_warnings(grip), max(self._widest, grip.ring)
         return scalars | slip_fields(after, found)
 
     def _solved(self, step: TimeStep, known: SlipStep) -> StepSlip:
@@ -130,6 +139,7 @@ class FrictionalContact:
             "history": self._history.restart_data(),
             "state": vars(self._state),
             "trend": list(self._trend),
+            "widest": self._widest,
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -138,6 +148,7 @@ class FrictionalContact:
         self._state = SlipState(**restart_data["state"])
         trend, duration = restart_data["trend"]
         self._trend = trend, duration
+        self._widest = restart_data["widest"]
 
 
 def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:

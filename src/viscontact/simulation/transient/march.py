@@ -143,6 +143,8 @@ class March:
             return None
         self.done += 1
         last = step.requested >= self._run.problem.end
+        if last:
+            self._observer.warn(self._friction.warnings_at_end)
         return self._observer.add_warnings(state, last=last)
 
 

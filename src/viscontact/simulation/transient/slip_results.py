@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.bodies.grid import Grid
-from viscontact.simulation.checks.friction import Grip, grip_warnings
+from viscontact.simulation.checks.friction import Grip
 from viscontact.simulation.transient.slip_state import SlipState, StepSlip
 from viscontact.simulation.transient.slip_step import SlipStep
 
@@ -54,12 +54,13 @@ def slip_fields(after: SlipState, step: StepSlip) -> dict[str, Any]:
     return fields
 
 
-def slip_warnings(step: SlipStep, after: SlipState, slip_fraction: float) -> dict[str, str]:
-    """Warnings of a step, by kind."""
+def grip_of(grid: Grid, step: SlipStep, after: SlipState, slip_fraction: float) -> Grip:
+    """What the contact carries at the end of a step."""
     cells, held = (int(np.count_nonzero(each.pressure > 0)) for each in (after, step.before))
     force = float(np.hypot(*step.constraints.resultants[:2]))
     slipping = round(cells * slip_fraction)
-    return grip_warnings(Grip(step.time, force, step.carried, cells, slipping, held))
+    on_line = min(grid.shape) == 1
+    return Grip(step.time, force, step.carried, cells, slipping, held, on_line)
 
 
 def _stiffness(before: SlipState, after: SlipState) -> tuple[float, float]:
