@@ -10,12 +10,13 @@ import pytest
 
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Paraboloid
+from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadProgram, Travel
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement, overrun
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
-from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen
+from viscontact.simulation.transient.moving_body import cells_seen
 from viscontact.simulation.transient.progress_bar import ProgressBar, reported
 from viscontact.simulation.transient.provenance import date_and_time
 from viscontact.simulation.transient.segments_so_far import ProgramCourse

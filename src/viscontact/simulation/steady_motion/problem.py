@@ -8,6 +8,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
@@ -32,6 +34,11 @@ class SteadyProblem:
     def axis(self) -> int:
         """Axis of the motion; 0: x, 1: y."""
         return "xy".index(self.motion.along)
+
+    def body_on(self, grid: Grid) -> Indenter:
+        """The body, on a grid that repeats itself with its next periods."""
+        body = self.contact.indenter
+        return PeriodicBody(body, grid) if any(grid.periodic) else body
 
     @property
     def kept(self) -> Floats:

@@ -29,7 +29,8 @@ class Resistance:
     by_slope: float
     by_dissipation: float
     slope_weight: float  # weight of the first form in the value
-    at_end: bool  # the body ends in the contact, where its slope has no limit
+    #: The body ends in the contact, where its slope has no limit, or repeats itself as a map.
+    at_end: bool
     #: Loss over the modulus of the compliance of waves as long as the contact, sin(loss angle) [-].
     loss_share: float = 1.0
 
@@ -57,7 +58,10 @@ def resistance(
     by_slope = resistance_by_slope(whole, domain.grid, indenter, tilts)[domain.axis]
     lost = float((pressure * domain.loss.apply(pressure)).sum())
     lost *= domain.grid.cell_area * domain.symmetry_count
-    at_end = reaches_end(whole, domain.grid, indenter)[domain.axis]
+    # The slope of a map is that of chords between its points: of the second order, where the
+    # dissipation of waves is exact up to the length of two cells.
+    is_map = min(indenter.sample_spacing) > 0 and domain.grid.periodic[domain.axis]
+    at_end = is_map or reaches_end(whole, domain.grid, indenter)[domain.axis]
     waves = domain.surface.at_length(1 / half_length).at_wave_number(np.array(1 / half_length))
     share = float(waves.imag / abs(waves))
     return Resistance(by_slope, lost, _slope_weight(domain, half_length), at_end, share)

@@ -19,7 +19,7 @@ from viscontact.simulation.steady_motion.resistance import Resistance, resistanc
 
 def rim_of(problem: SteadyProblem, contact: SteadyContact) -> Rim:
     """Rim of a contact between the cell centres."""
-    outline = trace_outline(problem.contact.indenter, contact.grid)
+    outline = trace_outline(problem.body_on(contact.grid), contact.grid)
     # The material passes from the leading edge, at the end of the axis, to the rear one.
     opens, falls = (
         later(field, np.roll(field, -1, axis=problem.axis))
@@ -34,7 +34,7 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
     axis, grid = problem.axis, contact.grid
     chord = mean_chords(contact.in_contact, periodic=grid.periodic)[axis] * grid.cell_size[axis]
     return resistance(
-        problem.contact.indenter,
+        problem.body_on(grid),
         contact.domain,
         contact.solution.values[0],
         _tilts(contact),
@@ -44,8 +44,8 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
 
 def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:
     """Force across the motion [N]; NaN where the body ends there, unless the contact is even."""
-    across, indenter, grid = 1 - problem.axis, problem.contact.indenter, contact.grid
-    pressure = contact.pressure
+    across, grid, pressure = 1 - problem.axis, contact.grid, contact.pressure
+    indenter = problem.body_on(grid)
     if reaches_end(pressure, grid, indenter)[across] and not is_even(pressure)[across]:
         return math.nan
     return resistance_by_slope(pressure, grid, indenter, _tilts(contact))[across]

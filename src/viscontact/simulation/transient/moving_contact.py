@@ -112,7 +112,7 @@ class MovingContact:
         """Resistance [N] in the form that is more accurate for the material and the speed."""
         grid, extents = self._run.grid, self._half_extents(solution)
         indenter, motion = self._run.indenter_at(step.time), self._run.problem.motion
-        if self._relaxation_way(max(extents)) > LONG_WAY * max(extents):
+        if self._repeats_a_map or self._relaxation_way(max(extents)) > LONG_WAY * max(extents):
             found = resistance_by_displacement(solution.pressure, solution.displacement, grid)
         else:
             tilts = float(solution.motion[1]), float(solution.motion[2])
@@ -122,6 +122,12 @@ class MovingContact:
         self._ends_reached = self._ends_reached | unknown
         along_x, along_y = np.where(unknown, math.nan, found).tolist()
         return along_x, along_y
+
+    @property
+    def _repeats_a_map(self) -> bool:
+        """True for a map without end, whose slope is that of chords between its points."""
+        run = self._run
+        return min(run.problem.indenter.sample_spacing) > 0 and all(run.grid.periodic)
 
     def _half_extents(self, solution: StepSolution) -> tuple[float, float]:
         """Half the extents of the contact along the axes of motion, 0 along others [m]."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from numbers import Integral
 
 import numpy as np
@@ -12,6 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
+from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
@@ -33,7 +35,7 @@ from viscontact.simulation.checks.problem_checks import (
 )
 from viscontact.simulation.meshing.mesh_choice import Mesh, choose_mesh
 from viscontact.simulation.meshing.path_extent import grid_over_path
-from viscontact.simulation.transient.moving_body import PeriodicBody, cells_seen
+from viscontact.simulation.transient.moving_body import cells_seen
 
 #: Adaptive steps that the hereditary integral is planned for: at least this many, and this many
 #: times the expected ones. More are possible.
@@ -92,11 +94,15 @@ class RunSetup:
         """The indenter's gap on the grid at a time [m]."""
         if self.position_at(time) == self.position_at(0.0):
             return self.open_gap
-        return _gap_on(self.problem, self.grid, time)
+        return _gap(self.indenter_at(time), self.grid)
 
     def indenter_at(self, time: float) -> Indenter:
         """The indenter at its position at a time."""
-        return _indenter_at(self.problem, self.grid, time)
+        return _placed(self._body, self.position_at(time))
+
+    @cached_property
+    def _body(self) -> Indenter:
+        return _body(self.problem, self.grid)
 
 
 def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
@@ -154,16 +160,24 @@ def _position(problem: Problem, time: float) -> tuple[float, float]:
     return x, y
 
 
-def _indenter_at(problem: Problem, grid: Grid, time: float) -> Indenter:
-    x, y = _position(problem, time)
-    if x == y == 0:
-        return problem.indenter
-    body = PeriodicBody(problem.indenter, grid) if any(grid.periodic) else problem.indenter
-    return PlacedIndenter(body, x=x, y=y)
+def _body(problem: Problem, grid: Grid) -> Indenter:
+    """The body at the origin, on a grid that repeats itself with its next periods if it moves."""
+    repeats = any(grid.periodic) and not problem.motion.stands
+    return PeriodicBody(problem.indenter, grid) if repeats else problem.indenter
 
 
-def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> Floats:
-    return _indenter_at(problem, grid, time).gap(grid.x[:, None], grid.y[None, :])
+def _placed(body: Indenter, position: tuple[float, float]) -> Indenter:
+    x, y = position
+    return body if x == y == 0 else PlacedIndenter(body, x=x, y=y)
+
+
+def _gap_on(problem: Problem, grid: Grid) -> Floats:
+    """Gap at time 0 on the cells of a grid [m]."""
+    return _gap(_placed(_body(problem, grid), _position(problem, 0.0)), grid)
+
+
+def _gap(indenter: Indenter, grid: Grid) -> Floats:
+    return indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
 def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
