@@ -54,6 +54,10 @@ class ConvergenceError(RunError):
     """
 
 
+class SlidingError(ConvergenceError):
+    """The prescribed load along the surface exceeds what friction carries: the body slides away."""
+
+
 class DomainError(RunError):
     """The grid does not fit the contact: pressure at its edge, or too few cells across.
 

@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from viscontact.bodies import friction
 from viscontact.bodies.friction import LARGEST
 from viscontact.case.quantities import POSITIVE, Section, WithUnit
+from viscontact.units.numbers import as_real
+
+
+def _no_percentage(given: Any) -> Any:
+    """Refuse what is a percentage, or too large for anything else."""
+    number = as_real(given)
+    if (isinstance(given, str) and "%" in given) or (number is not None and number > LARGEST):
+        raise ValueError(
+            f"must be a plain number up to {LARGEST:g}, got {given!r}; write 0.3 for 30 %"
+        )
+    return given
 
 
 class FrictionSection(Section):
     """Coulomb friction between the bodies."""
 
-    coefficient: Annotated[float, Field(gt=0, le=LARGEST)] = Field(
+    coefficient: Annotated[float, Field(gt=0), BeforeValidator(_no_percentage)] = Field(
         description="coefficient of friction", examples=[0.3]
     )
     coupling: bool = Field(

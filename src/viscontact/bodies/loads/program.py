@@ -6,7 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from viscontact.bodies.loads.history import Control
-from viscontact.bodies.loads.program_sentences import SCALARS, parsed_condition, parsed_sentences
+from viscontact.bodies.loads.program_sentences import (
+    OF_FRICTION,
+    SCALARS,
+    SLIDING,
+    parsed_condition,
+    parsed_sentences,
+)
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, positive, store
@@ -23,9 +29,11 @@ class Condition:
     ----------
     scalar : str
         "force", "approach", "contact_area", "contact_length", "contact_width", "peak_pressure",
-        "mean_pressure", "tilt_x" or "tilt_y"; or "contact", which is lost.
+        "mean_pressure", "tilt_x" or "tilt_y"; under friction "slip_fraction", "stick_area",
+        "friction_heat", "torque", "rotation", or "tangential_force_x", "tangential_displacement_x"
+        and those along y; or "contact", which is lost, or "full slip".
     value : float
-        Value to be reached [SI unit of the scalar]; none for "contact".
+        Value to be reached [SI unit of the scalar]; none for "contact" and "full slip".
 
     Raises
     ------
@@ -42,22 +50,30 @@ class Condition:
     value: float = field(default=0.0, metadata={"unit": "1"})
 
     def __post_init__(self) -> None:
-        if self.scalar not in (*SCALARS, "contact"):
+        if self.scalar not in (*SCALARS, "contact", SLIDING):
             raise ValueError(
-                f"condition: no scalar is called {self.scalar!r}; known are {', '.join(SCALARS)} "
-                "and contact"
+                f"condition: no scalar is called {self.scalar!r}; known are {', '.join(SCALARS)}, "
+                f"contact and {SLIDING}"
             )
         store(self, value=finite("condition: value", self.value, self.unit))
 
     def __str__(self) -> str:
         if self.scalar == "contact":
             return "contact is lost"
+        if self.scalar == SLIDING:
+            return "the whole contact slips"
         return f"{self.scalar} reaches {format_quantity(self.value, self.unit, 6)}"
 
     @property
     def unit(self) -> str:
-        """SI unit of the scalar; "1" for contact."""
-        return "1" if self.scalar == "contact" else DIMENSIONS[SCALARS[self.scalar]].unit
+        """SI unit of the scalar; "1" for a number, contact and slip."""
+        dimension = SCALARS.get(self.scalar)
+        return "1" if dimension is None else DIMENSIONS[dimension].unit
+
+    @property
+    def needs_friction(self) -> bool:
+        """True if it is on a scalar that only a contact under friction has."""
+        return self.scalar in (*OF_FRICTION, SLIDING)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import NamedTuple
 
@@ -28,6 +29,7 @@ _CONDITION = re.compile(
     re.IGNORECASE,
 )
 _LOST = re.compile(r"(?:the\s+)?contact\s+is\s+lost", re.IGNORECASE)
+_SLIDES = re.compile(r"(?:the\s+)?(?:whole\s+contact\s+slips|body\s+slides)", re.IGNORECASE)
 _STOP = re.compile(r"stop\s+(?:when|if|once)\s+(?P<what>.+)", re.IGNORECASE)
 _HOLD = re.compile(
     r"hold\s+(?:the\s+)?(?P<what>height|approach|force)\s+(?P<end>.+)", re.IGNORECASE
@@ -39,8 +41,11 @@ _CHANGE = re.compile(
 )
 _ENDS = re.compile(r"[;\n]|,?\s*\b(?:and\s+)?then\b", re.IGNORECASE)
 
-#: Scalars that a condition may be on, and their dimensions.
-SCALARS = {
+#: Condition that the whole contact slips, or that friction carries the load no longer.
+SLIDING = "full slip"
+
+#: Scalars that a condition may be on, and their dimensions; None for plain numbers.
+SCALARS: dict[str, str | None] = {
     "force": "force",
     "approach": "length",
     "contact_area": "area",
@@ -50,7 +55,17 @@ SCALARS = {
     "mean_pressure": "pressure",
     "tilt_x": "angle",
     "tilt_y": "angle",
+    **dict.fromkeys(("tangential_force_x", "tangential_force_y"), "force"),
+    **dict.fromkeys(("tangential_displacement_x", "tangential_displacement_y"), "length"),
+    "torque": "torque",
+    "rotation": "angle",
+    "stick_area": "area",
+    "slip_fraction": None,
+    "friction_heat": "energy",
 }
+
+#: Those of a contact under friction.
+OF_FRICTION = frozenset(list(SCALARS)[9:])
 
 
 class ProgramSentence(NamedTuple):
@@ -76,6 +91,8 @@ def parsed_condition(text: str) -> ReadCondition:
     words = text.strip() if isinstance(text, str) else ""
     if _LOST.fullmatch(words):
         return "contact", 0.0
+    if _SLIDES.fullmatch(words):
+        return SLIDING, 0.0
     match = _CONDITION.fullmatch(words)
     if match is None:
         raise ValueError(
@@ -85,9 +102,24 @@ def parsed_condition(text: str) -> ReadCondition:
     scalar = re.sub(r"\s+", "_", match["scalar"].lower())
     if scalar not in SCALARS:
         raise ValueError(
-            f"no scalar is called {scalar!r}; known are {', '.join(SCALARS)}, and 'contact is lost'"
+            f"no scalar is called {scalar!r}; known are {', '.join(SCALARS)}, 'contact is lost' "
+            "and 'the whole contact slips'"
         )
-    return scalar, parse_quantity(match["value"], SCALARS[scalar])
+    dimension = SCALARS[scalar]
+    if dimension is None:
+        return scalar, _plain(scalar, match["value"])
+    return scalar, parse_quantity(match["value"], dimension)
+
+
+def _plain(scalar: str, text: str) -> float:
+    """A plain number between 0 and 1."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 <= value <= 1:
+        raise ValueError(f"{scalar} is a number from 0 to 1, as in 0.5, got {quoted(text)}")
+    return value
 
 
 def _sentence(text: str) -> ProgramSentence:

@@ -36,12 +36,13 @@ def check_friction(problem: Problem) -> None:
     if problem.friction is None:
         raise ValueError(
             "friction: a tangential load needs friction, got none; give a coefficient, as in "
-            "friction=0.3"
+            "friction=0.3 or, in a case, 'friction: {coefficient: 0.3}'"
         )
     if problem.tangential is None:
         raise ValueError(
             "tangential: friction needs a tangential load, got none; give one, as in "
-            "tangential=vc.tangential_step(force_x=1.0)"
+            "tangential=vc.tangential_step(force_x=1.0) or, in a case, 'tangential: {kind: step, "
+            "force_x: 1 N}'"
         )
     if not problem.motion.stands:
         raise ValueError(
@@ -65,9 +66,10 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
         return
     points = [load.at(time, side=side) for time in load.kinks for side in ("left", "right")]
     if any(point.forces[2] or point.motions[2] for point in points):
+        turning = "rotation" if any(point.motions[2] for point in points) else "torque"
         raise ValueError(
-            "tangential.torque: a body without end does not turn; leave torque and rotation out, "
-            "or give a grid without a period"
+            f"tangential.{turning}: a body without end does not turn; leave torque and rotation "
+            "out, or give a grid without a period"
         )
     if not grid.has_datum and any(
         motion is not None for point in points for motion in point.motions[:2]

@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, Roller, Sphere
-from viscontact.bodies.loads import LoadHistory, LoadPoint, MixedHistory
+from viscontact.bodies.loads import Condition, LoadHistory, LoadPoint, MixedHistory
 from viscontact.bodies.loads.history_points import TAIL
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.checks.load_support import LoadSupport
@@ -58,6 +58,14 @@ def check_mixed(problem: Problem) -> None:
         raise ValueError(
             "load: a program, or mixed control, is for a body that does not move; leave motion out"
         )
+    program = problem.load.program
+    if program is not None and problem.friction is None:
+        for condition in (*(part.until for part in program.parts), *program.stop):
+            if isinstance(condition, Condition) and condition.needs_friction:
+                raise ValueError(
+                    f"load: the condition '{condition}' needs friction; give a coefficient of "
+                    "friction and a load along the surface"
+                )
     if isinstance(problem.grid, Grid) and any(problem.grid.periodic):
         raise ValueError(
             "load: a program, or mixed control, is for grids that are not periodic; leave periodic "

@@ -18,8 +18,9 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
-from viscontact.backend.errors import ConvergenceError
+from viscontact.backend.errors import ConvergenceError, SlidingError
 from viscontact.bodies.loads import Condition, MixedHistory
+from viscontact.bodies.loads.program_sentences import SLIDING
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.problem.problem import Problem
@@ -27,14 +28,24 @@ from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation.transient.frictional_contact import SlipTrial, frictional_contact
 from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.simulation.transient.stepper import Stepper, TrialStep
+from viscontact.units.formatting import format_quantity
 
 #: Error of the instant of an event that its search leaves, as a part of the step.
 EVENT_TOLERANCE = 1e-9
+
+#: The same of scalars that jump, as they count cells, and parts of an interval at which it is
+#: divided in turn, should one not be solved.
+COUNTED, COUNTED_TOLERANCE, MIDDLES = (
+    (SLIDING, "slip_fraction", "stick_area"),
+    1e-6,
+    (0.5, 0.4, 0.6),
+)
 
 #: Distance from the root to the instant of the event, in tolerances of the search: there a lost
 #: contact is lost for certain.
@@ -55,6 +66,7 @@ class _SolvedStep:
     trial: TrialStep
     state: ContactState
     observer: Observer
+    slip: SlipTrial | None  # None where the body slides away
 
 
 class EventSearch:
@@ -81,6 +93,7 @@ class EventSearch:
         self._domain: ContactDomain = domain_of(self._run)
         self._stepper = Stepper(self._run, self._domain)
         self._observer = Observer(self._run, warns=False)
+        self._friction = frictional_contact(self._run)
         self.states: list[ContactState] = []  # at the ends of the steps, without fields
         self.reach = (0.0, 0.0)  # of the contact from the middle of the grid, along x and y [m]
         self._accept(self._solve(TimeStep(0.0, 0.0, 0.0, smooth=False)))
@@ -110,20 +123,28 @@ class EventSearch:
             solved = self._solve(step)
             if not steps.accept_step(solved.trial.error.relative):
                 continue
-            found = [
-                (self._locate(condition, solved), condition)
-                for condition in self._course.conditions
-                if _is_met_between(condition, self._state, solved.state)
-            ]
-            if not found:
-                self._accept(solved)
-                continue
-            solved, met = min(found, key=lambda each: each[0].step.time)
-            if len(found) > 1:  # the history answers to the step that was solved last
-                solved = self._solve(solved.step)
+            solved, met = self._first_event(solved)
             self._accept(solved)
-            return met
+            if met is not None:
+                return met
         return None
+
+    def _first_event(self, solved: _SolvedStep) -> tuple[_SolvedStep, Condition | None]:
+        """Return a step, or its part up to the first condition that is met in it, and this."""
+        slides = None
+        if solved.slip is None:
+            slides = next(each for each in self._course.conditions if each.scalar == SLIDING)
+            solved = self._last_grip(solved.step)
+        found = [
+            (self._locate(condition, solved), condition)
+            for condition in self._course.conditions
+            if _is_met_between(condition, self._state, solved.state)
+        ]
+        if not found:
+            # The histories answer to the step that was solved last.
+            return (solved if slides is None else self._solve(solved.step)), slides
+        first, met = min(found, key=lambda each: each[0].step.time)
+        return (first if len(found) == 1 else self._solve(first.step)), met
 
     def _given_steps(self, begin: float, end: float) -> FixedSteps:
         """Steps through given instants within a segment, up to its end."""
@@ -155,6 +176,8 @@ class EventSearch:
     def _accept(self, solved: _SolvedStep) -> None:
         self._stepper.accept(solved.step, solved.trial)
         refuse_rim(self._run, solved.step, self._stepper.whole_solution(solved.trial))
+        assert solved.slip is not None  # a step that slides away is not accepted
+        self._friction.accept(solved.slip)
         self._last, self._state, self._observer = solved.step, solved.state, solved.observer
         if self._on_state is not None:
             self._on_state(solved.state)
@@ -168,12 +191,23 @@ class EventSearch:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
         solution = self._stepper.whole_solution(trial)
         observer = copy(self._observer)  # it adds the work of each step that it sees
-        return _SolvedStep(step, trial, observer.evaluate(step, trial.point, solution), observer)
+        state = observer.evaluate(step, trial.point, solution)
+        try:
+            slip = self._friction.trial(step, solution)
+        except SlidingError:
+            if not any(each.scalar == SLIDING for each in self._course.conditions):
+                raise
+            return _SolvedStep(step, trial, replace(state, slip_fraction=1.0), observer, None)
+        return _SolvedStep(step, trial, replace(state, **slip.values), observer, slip)
 
     def _locate(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
         """Return the step up to the instant at which a condition is met."""
         step = crossed.step
         begin = step.time - step.duration
+        if condition.scalar in COUNTED:
+            first = _excess(condition, self._state) > 0
+            _, past = self._around(step, lambda at: (_excess(condition, at.state) > 0) != first)
+            return self._solve((past or crossed).step)
 
         def excess(time: float) -> float:
             if time == begin:
@@ -193,6 +227,40 @@ class EventSearch:
             _step_to(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
         )
 
+    def _last_grip(self, step: TimeStep) -> _SolvedStep:
+        """Return the longest part of a step at whose end the body does not slide away."""
+        held, _ = self._around(step, lambda solved: solved.slip is None)
+        if held is None:
+            begin = format_quantity(step.time - step.duration, "s", 6)
+            raise EventError(
+                f"load: the body slides from {begin} on, before anything grips; let the load along "
+                "the surface begin later"
+            )
+        return held
+
+    def _around(
+        self, step: TimeStep, is_past: Callable[[_SolvedStep], bool]
+    ) -> tuple[_SolvedStep | None, _SolvedStep | None]:
+        """Return the parts of a step right before and past an instant, by bisection."""
+        begin, low, high = step.time - step.duration, 0.0, 1.0
+        before, past = None, None
+        while high - low > COUNTED_TOLERANCE:
+            for part in MIDDLES:
+                middle = low + part * (high - low)
+                time = begin + middle * step.duration
+                try:
+                    solved = self._solve(TimeStep(time, time - begin, time, step.smooth))
+                    break
+                except ConvergenceError:  # at an instant at which a cell hardly slips or sticks
+                    continue
+            else:
+                break
+            if is_past(solved):
+                high, past = middle, solved
+            else:
+                low, before = middle, solved
+        return before, past
+
 
 def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
     """Largest distances of the contact from the middle of the grid along x and y [m]."""
@@ -204,6 +272,9 @@ def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:
 
 def _excess(condition: Condition, state: ContactState) -> float:
     """Scalar of a condition less its value; of a lost contact the clearance, negative."""
+    if condition.scalar == SLIDING:
+        assert state.slip_fraction is not None  # there is friction, as is checked
+        return state.slip_fraction - 1 or math.ulp(0.0)  # above 0 where all cells slip
     if condition.scalar != "contact":
         return float(getattr(state, condition.scalar)) - condition.value
     # Force and clearance have different units; only the sign counts, and zero is between them.
@@ -217,4 +288,6 @@ def _is_met_between(condition: Condition, before: ContactState, after: ContactSt
     first, last = _excess(condition, before), _excess(condition, after)
     if condition.scalar == "contact":
         return first > 0 >= last
+    if condition.scalar == SLIDING:
+        return first < 0 < last
     return first != 0 and (last == 0 or (first > 0) != (last > 0))

@@ -8,6 +8,7 @@ tractions (`shear_history`). A contact without friction is `Frictionless`.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -19,10 +20,10 @@ from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.mechanics.contact.friction.region import ShearDomain
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.simulation.checks.friction import grip_warnings, ring_warnings
+from viscontact.simulation.checks.friction import Grip, grip_warnings, ring_warnings
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
-from viscontact.simulation.transient.shear_history import ShearHistory
+from viscontact.simulation.transient.shear_history import ShearHistory, ShearStep
 from viscontact.simulation.transient.slip_results import grip_of, slip_fields, slip_scalars
 from viscontact.simulation.transient.slip_state import SlipState, StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import (
@@ -35,16 +36,35 @@ from viscontact.simulation.transient.slip_step import (
 from viscontact.simulation.transient.step_solution import StepSolution
 
 
+@dataclass(frozen=True, eq=False)
+class SlipTrial:
+    """Tractions of a step that has been solved but not accepted; none of a contact without them."""
+
+    #: Scalars and fields of the state at its end.
+    values: Mapping[str, Any] = field(default_factory=dict)
+    grip: Grip | None = None
+    response: ShearStep | None = None
+    after: SlipState | None = None
+    duration: float = 0.0  # [s]
+
+    @property
+    def warnings(self) -> dict[str, str]:
+        """Warnings, by kind."""
+        return {} if self.grip is None else grip_warnings(self.grip)
+
+
 class Frictionless:
     """Contact without friction, which carries no traction."""
 
-    #: Warnings of the last step and of the whole run, by kind.
-    warnings: Mapping[str, str] = {}
+    #: Warnings of the whole run, by kind.
     warnings_at_end: Mapping[str, str] = {}
 
-    def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
-        """Return no scalars and fields."""
-        return {}
+    def trial(self, step: TimeStep, solution: StepSolution) -> SlipTrial:
+        """Return no tractions."""
+        return SlipTrial()
+
+    def accept(self, trial: SlipTrial) -> None:
+        """Keep nothing."""
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue on a larger grid, as on any other."""
@@ -68,16 +88,14 @@ class FrictionalContact:
         #: Change of the traction [Pa] in the last step, and its duration [s].
         self._trend = np.zeros(self._state.traction.shape), 0.0
         self._widest = 0.0  # ring that has slipped, in cells
-        #: Warnings of the last step, by kind.
-        self.warnings: dict[str, str] = {}
 
     @property
     def warnings_at_end(self) -> dict[str, str]:
         """Warnings of the whole run, by kind."""
         return ring_warnings(self._widest)
 
-    def advance(self, step: TimeStep, solution: StepSolution) -> dict[str, Any]:
-        """Solve the tractions at the end of a step; return scalars and fields of its state."""
+    def trial(self, step: TimeStep, solution: StepSolution) -> SlipTrial:
+        """Solve the tractions at the end of a step, after that of the last one accepted."""
         before, grid = self._state, self._run.grid
         point = self._load.at(step.time, side=step.side)
         known = SlipStep(
@@ -98,12 +116,21 @@ class FrictionalContact:
             # nearest cells as at first.
             lifted = solution.gap.min() - self._run.open_gap.min()
             after = before.apart(solution.gap - lifted, found)
-        self._history.accept(known.response, after.traction)
-        self._trend, self._state = (after.traction - before.traction, step.duration), after
         scalars = slip_scalars(grid, step.duration, before, after, found)
-        grip = grip_of(grid, known, after, scalars["slip_fraction"])
-        self.warnings, self._widest = grip_warnings(grip), max(self._widest, grip.ring)
-        return scalars | slip_fields(after, found)
+        return SlipTrial(
+            scalars | slip_fields(after, found),
+            grip_of(grid, known, after, scalars["slip_fraction"]),
+            *(known.response, after, step.duration),
+        )
+
+    def accept(self, trial: SlipTrial) -> None:
+        """Close a step with its tractions."""
+        assert trial.after is not None  # it is a trial of this contact
+        assert trial.response is not None
+        assert trial.grip is not None
+        self._history.accept(trial.response, trial.after.traction)
+        self._trend = trial.after.traction - self._state.traction, trial.duration
+        self._state, self._widest = trial.after, max(self._widest, trial.grip.ring)
 
     def _solved(self, step: TimeStep, known: SlipStep) -> StepSlip:
         """Tractions of a step in contact."""

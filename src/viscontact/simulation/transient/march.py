@@ -133,8 +133,10 @@ class March:
         solution = self._stepper.accept(step, trial)
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
-        state = replace(state, **self._friction.advance(step, solution))
-        self._observer.warn(self._friction.warnings)
+        slip = self._friction.trial(step, solution)
+        self._friction.accept(slip)
+        state = replace(state, **slip.values)
+        self._observer.warn(slip.warnings)
         _LOG.debug(
             "step to t = %.6g s: %d iterations, residual %.2g",
             *(step.time, solution.iterations, solution.residual),

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from viscontact.bodies.loads import Condition, LoadProgram, MixedHistory, Segment
 from viscontact.bodies.loads.history import Control
 from viscontact.bodies.loads.mixed import STOP
+from viscontact.bodies.loads.program_sentences import SLIDING
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.units.formatting import format_quantity
 
@@ -144,8 +145,10 @@ def _nearest(condition: Condition, states: Sequence[ContactState]) -> str:
         if all(state.outcome is Outcome.NO_CONTACT for state in states):
             return "as the segment begins without contact"
     else:
-        name, unit = condition.scalar, condition.unit
-        nearest = min(states, key=lambda state: abs(getattr(state, name) - condition.value))
+        sliding = condition.scalar == SLIDING
+        name, unit = "slip_fraction" if sliding else condition.scalar, condition.unit
+        wanted = 1.0 if sliding else condition.value
+        nearest = min(states, key=lambda state: abs(getattr(state, name) - wanted))
         now = float(getattr(nearest, name))
     at = format_quantity(nearest.time, "s", 6)
     return f"{name} comes closest at {at} with {format_quantity(now, unit)}"

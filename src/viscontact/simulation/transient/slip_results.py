@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.simulation.checks.friction import Grip
-from viscontact.simulation.transient.slip_state import SlipState, StepSlip
+from viscontact.simulation.transient.slip_state import ROUNDING, SlipState, StepSlip
 from viscontact.simulation.transient.slip_step import SlipStep
 
 
@@ -66,6 +66,7 @@ def grip_of(grid: Grid, step: SlipStep, after: SlipState, slip_fraction: float) 
 def _stiffness(before: SlipState, after: SlipState) -> tuple[float, float]:
     """Changes of the forces over those of the shifts in the step; NaN at rest [N/m]."""
     moved, added = after.motion - before.motion, after.forces - before.forces
+    added[np.abs(added) < ROUNDING * np.abs(after.forces)] = 0.0
     along_x, along_y = (
         float(added[axis] / moved[axis]) if moved[axis] else math.nan for axis in (0, 1)
     )

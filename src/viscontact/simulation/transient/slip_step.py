@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.backend.errors import ConvergenceError
+from viscontact.backend.errors import ConvergenceError, SlidingError
 from viscontact.bodies.loads.tangential import TangentialPoint
 from viscontact.mechanics.contact.friction.entry import entry_compliance
 from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip
@@ -75,14 +75,14 @@ def solved_on(
     block = domain.block(region, step.response.kappa)
     found = solve_slip(problem, block, start[:, *region.cut], tolerance=run.problem.tolerance)
     if not found.converged:
-        raise ConvergenceError(_not_converged(step, found, block.shift))
+        raise _failure(step, found, block.shift)
     return found
 
 
 def refuse_force_apart(step: SlipStep) -> None:
     """Refuse a force on bodies that do not touch."""
     if np.abs(step.constraints.resultants).any():
-        raise ConvergenceError(
+        raise SlidingError(
             f"tangential: the bodies are apart at t = {format_quantity(step.time, 's', 6)} and "
             "nothing carries the prescribed force; let it end before contact is lost, or "
             "prescribe a displacement"
@@ -108,19 +108,20 @@ def _slip_problem(
     )
 
 
-def _not_converged(step: SlipStep, found: SlipSolution, shift: RigidShift) -> str:
-    """Message about a step whose tractions were not found."""
+def _failure(step: SlipStep, found: SlipSolution, shift: RigidShift) -> ConvergenceError:
+    """Error of a step whose tractions were not found."""
     time, resultants = format_quantity(step.time, "s", 6), shift.resultants(found.traction)
     if step.constraints.imbalance(resultants, step.carried) > IMBALANCE:
         missing = step.constraints.lacking(resultants)
-        return (
+        force, torque = float(np.hypot(*missing[:2])), float(abs(missing[2]))
+        left = [format_quantity(force, "N", 4)] * (force > 0)
+        left += [format_quantity(torque, "N m", 4)] * (torque > 0)
+        return SlidingError(
             f"tangential: the body slides away at t = {time}: friction carries up to "
-            f"{format_quantity(step.carried, 'N', 4)}, and of the prescribed load "
-            f"{format_quantity(float(np.hypot(*missing[:2])), 'N', 4)} and "
-            f"{format_quantity(float(abs(missing[2])), 'N m', 4)} are left; prescribe less, or a "
-            "displacement in place of the force"
+            f"{format_quantity(step.carried, 'N', 4)}, which is too little by "
+            f"{' and '.join(left)}; prescribe less, or a displacement in place of the force"
         )
-    return (
+    return ConvergenceError(
         f"the solver of friction stopped at t = {time} with residual {found.residual:.2g} after "
         f"{found.iterations} iterations, short of the tolerance; likely causes: a force close to "
         "what friction carries, or a tolerance near rounding"
