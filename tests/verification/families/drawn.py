@@ -9,6 +9,7 @@ from verification.families.blunt_bodies import blunt_apex, rounded_punch, shrink
 from verification.families.eccentric_bodies import eccentric_ball, eccentric_ellipsoid
 from verification.families.ellipses import slender_ellipse, turned_ellipse
 from verification.families.exact_run import ExactRun, NotDrawnError
+from verification.families.gripping_bodies import pulled_body, shifted_body, turned_body
 from verification.families.layered_bodies import covered_core, layered_ball, layered_cylinder
 from verification.families.load_programs import load_program
 from verification.families.punches import dent, eccentric_punch, punch
@@ -70,7 +71,12 @@ BLUNT: dict[str, Draw] = {
     )
 }
 
-FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT
+#: Bodies under friction, whose bars were fitted to spheres alone, under one force.
+GRIPPING: dict[str, Draw] = {
+    each.__name__: each for each in (pulled_body, shifted_body, turned_body)
+}
+
+FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT | GRIPPING
 
 
 def drawn(

@@ -1,0 +1,163 @@
+"""Round bodies under friction: pulled, shifted or turned while the normal load varies.
+
+Truth: the same run on three times the cells in thirds of the steps. Its uncertainty is twice the
+difference from twice the cells in halves, its own error where that falls with the cells.
+"""
+
+import math
+import warnings
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+import viscontact as vc
+from verification.families.creep_curves import random_creep
+from verification.families.exact_run import ExactRun, NotDrawnError
+from verification.families.random_loads import (
+    Points,
+    history_of_points,
+    jump_and_ramp,
+    random_times,
+    step_and_hold,
+)
+from verification.families.round_bodies import (
+    cells_across,
+    contact_size,
+    grid_around,
+    largest_level,
+    solution,
+)
+from verification.families.round_profiles import random_body
+
+Array = np.ndarray
+
+#: Compared scalars. Power and stiffness are of a step, and the steps are not the same.
+SCALARS = (
+    *("tangential_displacement_x", "tangential_displacement_y", "rotation"),
+    *("tangential_force_x", "tangential_force_y", "torque"),
+    *("stick_area", "slip_fraction", "friction_heat"),
+)
+
+
+def pulled_body(rng: np.random.Generator) -> ExactRun:
+    """A force along any direction, to and fro."""
+
+    def pull(corners: Array, levels: Array, force: float, depth: float, a: float) -> Any:
+        turn = rng.uniform(0, 2 * math.pi) if rng.random() < 0.5 else 0.0
+        ahead, aside = (force * levels * part(turn) for part in (np.cos, np.sin))
+        return vc.TangentialHistory(corners, force_x=ahead, force_y=aside)
+
+    return _gripped(rng, "pulled", pull, 0.9)
+
+
+def shifted_body(rng: np.random.Generator) -> ExactRun:
+    """A shift that may make the whole contact slide."""
+
+    def shift(corners: Array, levels: Array, force: float, depth: float, a: float) -> Any:
+        turn = rng.uniform(0, 2 * math.pi) if rng.random() < 0.5 else 0.0
+        ahead, aside = (depth * levels * part(turn) for part in (np.cos, np.sin))
+        return vc.TangentialHistory(corners, displacement_x=ahead, displacement_y=aside)
+
+    return _gripped(rng, "shifted", shift, 1.5)
+
+
+def turned_body(rng: np.random.Generator) -> ExactRun:
+    """A torque or a rotation."""
+
+    def turn(corners: Array, levels: Array, force: float, depth: float, a: float) -> Any:
+        if rng.random() < 0.5:
+            return vc.TangentialHistory(corners, torque=0.5 * force * a * levels)
+        return vc.TangentialHistory(corners, rotation=depth / a * levels)
+
+    return _gripped(rng, "turned", turn, 0.9)
+
+
+def _gripped(rng: np.random.Generator, name: str, load_along: Any, most: float) -> ExactRun:
+    creep, a = random_creep(rng), contact_size(rng)
+    if not creep.jumps:
+        raise NotDrawnError("no instant compliance")
+    body, (kind, points) = random_body(rng, a), _normal_points(rng)
+    end = creep.time * 10 ** rng.uniform(-0.7, 0.7)
+    load = history_of_points(
+        points, "force", largest_level(body, creep, "force", a, end), end, tilt_x=0.0, tilt_y=0.0
+    )
+    found = solution(body, creep, load, np.linspace(0, end, 30), 0.5)
+    reach = float(found.contact_radius.max())
+    coefficient = float(10 ** rng.uniform(-1.3, 0))
+    corners, levels = _corners(rng, end, most)
+    force = coefficient * float(np.min(load.force))
+    depth = coefficient * float(np.max(found.scalars(peak=False)["approach"]))
+    along = load_along(corners, levels, force, depth, reach)
+    grid = grid_around(rng, (reach, reach), cells_across(rng, 30))
+    more = dict(creep.more) | {
+        "friction": vc.Friction(coefficient, coupling=False),
+        "tangential": along,
+    }
+    kinks = np.unique([*corners, *(each for each in np.atleast_1d(load.times) if each <= end)])
+    times = random_times(rng, end, most=24)
+    apart = np.abs(times[:, None] - kinks).min(axis=1) > 1e-3 * end
+    times = np.unique([*times[apart], *kinks])
+    run = ExactRun(
+        f"{name} {body.name}, {kind} force, {creep.name}",
+        *(body.indenter, creep.material, load, grid, times),
+        exact=lambda at: {},
+        more=more,
+    )
+    finer = _Finer(run)
+    return replace(run, exact=finer.values, uncertainty=finer.uncertainty)
+
+
+def _normal_points(rng: np.random.Generator) -> tuple[str, Points]:
+    """A force that is never zero: held, or rising or falling after a jump."""
+    kind = (step_and_hold, jump_and_ramp)[rng.integers(2)]
+    return kind.__name__.replace("_", " "), kind(rng)
+
+
+def _corners(rng: np.random.Generator, end: float, most: float) -> tuple[Array, Array]:
+    """Instants and levels of a load along the surface, to and fro."""
+    count = int(rng.integers(2, 6))
+    parts = np.append(0.0, np.cumsum(rng.uniform(0.3, 1.0, count)))
+    sizes = rng.uniform(0.2, most, count) * np.where(np.arange(count) % 2, -1, 1)
+    if rng.random() < 0.3:  # on and on, not to and fro
+        sizes = np.sort(np.abs(sizes))
+    return end * parts / parts[-1], np.append(0.0, sizes)
+
+
+class _Finer:
+    """Scalars of a run on finer cells in smaller steps, each computed once."""
+
+    def __init__(self, run: ExactRun) -> None:
+        self._run = run
+        self._found: dict[int, dict[str, Array]] = {}
+
+    def values(self, times: Array) -> dict[str, Array]:
+        """The most exact scalars at some of the run's instants."""
+        return self._at(times, 3)
+
+    def uncertainty(self, times: Array) -> dict[str, Array]:
+        """How far they may be off."""
+        finest, other = self._at(times, 3), self._at(times, 2)
+        return {name: 2 * np.abs(finest[name] - other[name]) for name in finest}
+
+    def _at(self, times: Array, factor: int) -> dict[str, Array]:
+        if factor not in self._found:
+            self._found[factor] = self._scalars(factor)
+        places = np.searchsorted(self._run.times, times)
+        return {name: values[places] for name, values in self._found[factor].items()}
+
+    def _scalars(self, factor: int) -> dict[str, Array]:
+        run, times = self._run, np.asarray(self._run.times)
+        parts = np.arange(1, factor + 1) / factor
+        inner = times[:-1, None] + np.diff(times)[:, None] * parts
+        inner[:, -1] = times[1:]
+        given = run.arguments
+        grid: Any = run.grid
+        shape = grid.shape[0] * factor, grid.shape[1] * factor
+        given |= {"grid": replace(grid, shape=shape), "times": np.append(times[0], inner)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", vc.AccuracyWarning)
+            states = [state.without_fields() for state in vc.march(**given)]
+        at = {state.time: state for state in states}  # the later state of a jump
+        kept = [at[time] for time in times]
+        return {name: np.array([getattr(state, name) for state in kept]) for name in SCALARS}
