@@ -10,7 +10,8 @@
 5. On a body that relaxes, refine for the peak pressure at the edge of the growing contact
    (`edge_ring`).
 6. State the expected errors, no smaller than the error of a height map's facets.
-7. Make cells smaller that are larger than a requested limit (`cell_limit`).
+7. Make cells smaller that are larger than a requested limit (`cell_limit`), or than the ring that
+   slips under friction allows (`slip_ring`).
 """
 
 from __future__ import annotations
@@ -50,6 +51,7 @@ from viscontact.simulation.meshing.mesh_warnings import (
     spacing_warning,
 )
 from viscontact.simulation.meshing.refinement import USUAL_ORDER, Resolution, refine_mesh
+from viscontact.simulation.meshing.slip_ring import cell_for_ring
 from viscontact.simulation.meshing.trial_mesh import PEAK, RIM_SCATTER, ElasticContact, MeshTrial
 from viscontact.units.formatting import format_quantity
 
@@ -108,10 +110,13 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     mesh = _limited_by_map(indenter, largest, mesh)
     mesh = replace(mesh, warnings=mesh.warnings | whole_map_warning(indenter, largest, mesh.grid))
     _log(mesh)
-    if request.largest_cell is None:
-        return mesh
-    ends = straight_ends(indenter, mesh.grid.size, largest.estimate.reach_from(centre), centre)
-    return replace(mesh, grid=with_small_cells(mesh.grid, request.largest_cell, ends))
+    ring = cell_for_ring(problem, largest, end, mesh.grid, request.tolerance)
+    for cell in (request.largest_cell, ring):
+        if cell is not None:
+            grid, reached = mesh.grid, largest.estimate.reach_from(centre)
+            ends = straight_ends(indenter, grid.size, reached, centre)
+            mesh = replace(mesh, grid=with_small_cells(grid, cell, ends))
+    return mesh
 
 
 def _log(mesh: Mesh) -> None:
