@@ -10,10 +10,18 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from interrupted_runs import contents, folder, kill, same_bits
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.report import write_report
 from viscontact.results.leakage.of_case import case_leakage
+from viscontact.studies.case_values import result_of
+from viscontact.studies.scalars import require_fluid
+
+__all__ = ["folder"]  # a fixture
+
+# Few cells are enough here.
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 CASE: dict[str, Any] = {
     "title": "Seal",
@@ -101,3 +109,106 @@ def test_viscosity_is_needed_where_the_case_has_none(
     assert main(["run", str(tmp_path / "plain.yaml"), "-q", "-o", str(tmp_path / "run")]) == 0
     assert main(["leakage", str(tmp_path / "run")]) == 2
     assert "--viscosity is needed" in capsys.readouterr().err
+
+
+# Rubber that creeps under crossed waves: the contact grows, and closes the valleys along y.
+CREEPING: dict[str, Any] = {
+    **CASE,
+    "indenter": {
+        **{"shape": "waviness", "amplitude": "1 um"},
+        **{"wavelength_x": "0.1 mm", "wavelength_y": "0.1 mm"},
+    },
+    "material": {
+        **{"law": "zener", "shear_modulus": "80 GPa", "delayed_modulus": "80 GPa"},
+        **{"viscosity": "80 GPa s", "poisson_ratio": 0.3},
+    },
+    "load": {"kind": "ramp", "mean_pressure": "0.5 GPa", "duration": "1 s"},
+    "time": {"end": "3 s", "steps": 6, "spacing": "uniform"},
+    "grid": {"shape": [16, 16], "size": ["0.1 mm", "0.1 mm"], "periodic": True},
+    "output": {"fields": ["1 s", "2 s", "3 s"], "errors": False},
+    "leakage": {"viscosity": "1 mPa s", "pressure_difference": "1 bar"},
+}
+
+
+def test_scalars_are_those_of_the_stored_instants(tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    path = tmp_path / "case.yaml"
+    path.write_text(json.dumps(CREEPING), encoding="utf-8")
+    assert main(["run", str(path), "-q", "-o", str(run)]) == 0
+    with vc.open_results(run) as ds:
+        found = vc.leakage(ds, viscosity=1e-3, pressure_difference=1e5)
+        stored = np.isin(ds.time, ds.field_time)
+        for name in ("transmissivity", "leak_rate", "critical_gap"):
+            # Files keep the gap in single precision.
+            np.testing.assert_allclose(ds[name][stored], found[name], rtol=1e-5)
+            assert np.isnan(ds[name][~stored]).all()
+        np.testing.assert_allclose(ds.leak_rate_error[stored], found.leak_rate_error, rtol=1e-4)
+        assert (np.diff(ds.leak_rate[stored]) < 0).all()  # creep closes the channels
+
+
+def test_flow_along_both_axes_has_no_single_scalar(tmp_path: Path) -> None:
+    case = read_case(written(tmp_path))
+    assert "leak_rate" not in result_of(case)
+    with pytest.raises(ValueError, match="leak_rate: needs a section 'leakage'"):
+        require_fluid(case, ["force", "leak_rate"])
+    one = read_case(written(tmp_path, leakage={"viscosity": "1 mPa s"}))
+    assert result_of(one).transmissivity.values[0] > 0
+    with pytest.raises(ValueError, match="pressure_difference"):
+        require_fluid(one, ["leak_rate"])
+    require_fluid(one, ["critical_gap"])
+
+
+def test_killed_run_is_resumed_to_the_bit(folder: Path) -> None:
+    (folder / "case.yaml").write_text(json.dumps(CREEPING), encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
+    with vc.open_results("at once") as ds:
+        at_once = ds.load()
+    kill(4, "-q")
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] < at_once.sizes["time"]
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    assert same_bits("case", at_once)
+
+
+@pytest.mark.parametrize("stopped", [True, False])
+def test_changed_fluid_is_refused_with_the_remedy(
+    stopped: bool, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "case.yaml").write_text(json.dumps(CREEPING), encoding="utf-8")
+    if stopped:
+        kill(4, "-q")
+    else:
+        assert main(["run", "case.yaml", "-q"]) == 0
+    before = contents("case")
+    capsys.readouterr()
+    other = ["--set", "leakage.viscosity=2 mPa s"]
+    assert main(["run", "case.yaml", "-q", "--resume", *other]) == 2
+    said = capsys.readouterr().err
+    assert "leakage.viscosity: was 1 mPa s, is now 2 mPa s" in said
+    assert "viscontact leakage DIR" in said
+    assert contents("case") == before
+
+
+@pytest.mark.slow
+def test_leak_rate_is_a_scalar_of_sweeps(folder: Path) -> None:
+    (folder / "case.yaml").write_text(json.dumps(CREEPING), encoding="utf-8")
+    vary = ["--vary", "load.mean_pressure=0.2 GPa,0.5 GPa"]
+    assert main(["run", "case.yaml", "-q", "-j", "1", *vary, "-o", "both"]) == 0
+    with vc.open_many("both") as ds:
+        assert ds.leak_rate.dims == ("load.mean_pressure", "time")
+        last = ds.leak_rate.isel(time=-1).values
+        assert 0 < last[1] < last[0]
+        assert (ds.leak_rate_error.isel(time=-1).values < last).all()
+
+
+@pytest.mark.slow
+def test_design_finds_the_least_pressure_that_seals(folder: Path) -> None:
+    (folder / "case.yaml").write_text(json.dumps(CREEPING), encoding="utf-8")
+    found = vc.design(
+        "case.yaml",
+        change={"load.mean_pressure": ("0.05 GPa", "2 GPa")},
+        minimise="mean_pressure",
+        constraints=["leak_rate<=1 mm3/h"],
+        runs=14,
+    )
+    assert float(found.best.leak_rate) < 3e-13

@@ -37,6 +37,9 @@ OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter", "thickening
 #: Part of a state that only contacts under friction have.
 FRICTION = "friction"
 
+#: Part of a state of a run whose case names a fluid that leaks.
+LEAKAGE = "leakage"
+
 #: Fields of a state over the cells, and those of a contact under friction.
 FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
 FRICTION_FIELDS = ("traction_x", "traction_y", "slip_x", "slip_y", "slip_state", "friction_work")
@@ -158,6 +161,12 @@ class ContactState:
     duality_gap : float or None
         Bound of the energy of the error of the tractions, over the work of all friction on the
         largest displacement [-].
+    transmissivity, leak_rate, critical_gap : float or None
+        Of a fluid through the gap, as of `leakage`: h³/12 between parallel plates [m³], volume over
+        time [m³/s], and gap at the narrowest place of the widest channel [m]; NaN at instants
+        whose fields are not kept. None without a fluid in the case.
+    transmissivity_error, leak_rate_error : float or None
+        Their errors.
 
     Examples
     --------
@@ -228,6 +237,11 @@ class ContactState:
     tangential_stiffness_x: float | None = None
     tangential_stiffness_y: float | None = None
     duality_gap: float | None = None
+    transmissivity: float | None = None
+    transmissivity_error: float | None = None
+    leak_rate: float | None = None
+    leak_rate_error: float | None = None
+    critical_gap: float | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:
@@ -244,7 +258,9 @@ class ContactState:
         """Parts of its scalars that only some states have."""
         moving = {MOTION} if self.moving or self.speed is not None else set()
         gripping = set() if self.traction_x is None else {FRICTION}
-        return frozenset(moving | gripping | {n for n in OF_CLOCKS if getattr(self, n) is not None})
+        leaking = set() if self.leak_rate is None else {LEAKAGE}
+        clocked = {name for name in OF_CLOCKS if getattr(self, name) is not None}
+        return frozenset(moving | gripping | leaking | clocked)
 
     @property
     def field_names(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Any, Self
 
-from viscontact.results.variables import ALLOWABLE, LEAKAGE
+from viscontact.results.variables import ALLOWABLE
 
 #: Attributes as JSON, each with the type of its content.
 _TYPES = {"title_block": dict, "measured": dict, "input_files": list, "case_as_typed": dict}
@@ -28,15 +28,12 @@ class FiledCase:
     measured: Mapping[str, Any] = field(default_factory=dict)
     #: Limits in SI units, to which the verdicts are added when the run is finished.
     limits: Mapping[str, float] = field(default_factory=dict)
-    #: Settings of the leakage, in SI units.
-    leakage: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def attributes(self) -> dict[str, str]:
         """Attributes of a result, without those that are empty in most cases."""
         limits = {name: {"limit": limit} for name, limit in self.limits.items()}
         sometimes = {"title_block": self.title_block, "measured": self.measured, ALLOWABLE: limits}
-        sometimes |= {LEAKAGE: self.leakage}
         return {
             **{name: json.dumps(value) for name, value in sometimes.items() if value},
             "input_files": json.dumps(self.input_files),

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import FRICTION, MOTION, Outcome
+from viscontact.mechanics.state import FRICTION, LEAKAGE, MOTION, Outcome
 
 
 class Place(Flag):
@@ -147,6 +147,13 @@ def _shear(
     return _scalar(units, long_name, label, rank, places, of=FRICTION)
 
 
+def _leak(
+    units: str, long_name: str, rank: int = 0, label: str = "", places: Place = Place.NOWHERE
+) -> Variable:
+    """A scalar of the flow through the gap, whose error is found with it."""
+    return Variable(units, long_name, label=label, places=places, rank=rank, of=LEAKAGE)
+
+
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
 _MOTION = _EXTENT | Place.FIGURE
 _RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
@@ -258,6 +265,19 @@ SCALARS = {
         *("1", "bound of the energy of the error of the tractions"),
         of=FRICTION,
     ),
+    "transmissivity": _leak(
+        "m3", "transmissivity of the gap: h³/12 between parallel plates", 40, "Transmissivity"
+    ),
+    "transmissivity_error": _leak("m3", "error of the transmissivity, by two discretisations"),
+    "leak_rate": _leak(
+        *("m3 s-1", "volume of fluid that leaks in a unit of time", 41, "Leak rate"),
+        Place.KEY | Place.CARD,
+    ),
+    "leak_rate_error": _leak("m3 s-1", "error of the leak rate"),
+    "critical_gap": _leak(
+        *("m", "gap at the narrowest place of the widest channel", 42, "Critical gap"),
+        Place.KEY | Place.CARD,
+    ),
     "temperature": Variable(
         "K",
         "temperature of the bodies",
@@ -297,6 +317,9 @@ SCALARS = {
     ),
 }
 
+
+#: Scalars of the flow through the gap, of runs whose case names a fluid.
+OF_LEAKAGE = tuple(name for name, each in SCALARS.items() if each.of == LEAKAGE and each.label)
 
 #: Scalars that add up over time, belong to steps in time, or are the origin of coordinates.
 NOT_STEADY = (
@@ -359,9 +382,6 @@ MESH_DEPENDENT = "depends on the mesh"
 #: Attribute of a result with the allowable values and the verdicts on them.
 ALLOWABLE = "allowable"
 
-#: Attribute of a result with the settings of the leakage that its case asks for.
-LEAKAGE = "leakage"
-
 #: Stresses that may be limited, by name, and what they are.
 STRESSES = {"von_mises": "von Mises stress", "max_shear": "Largest shear stress"}
 
@@ -386,6 +406,6 @@ ERRORS = {
 def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     """Attributes of a scalar, with CF's pointer to its error if the result has errors."""
     attributes = SCALARS[name].attributes
-    if errors and SCALARS[name].has_error:
+    if (errors and SCALARS[name].has_error) or error_name(name) in SCALARS:
         attributes["ancillary_variables"] = error_name(name)
     return attributes

@@ -6,15 +6,17 @@ import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, Self, TypeVar
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.state import ContactState, Outcome
+from viscontact.mechanics.state import LEAKAGE, ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.descriptions import describe
+from viscontact.results.leakage.of_state import CaseLeakage, leakage_memory, leakage_seconds
 from viscontact.results.run_axis import RunAxis
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars
@@ -65,6 +67,8 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
 
     setup: OfSetup
     errors: bool = True
+    #: Fluid that leaks through the gap, if the case names one.
+    leakage: CaseLeakage | None = None
 
     #: Quantity in which its states differ.
     axis: ClassVar[RunAxis]
@@ -126,6 +130,45 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     def states(self, saved: RestartData | None = None) -> OfStates:
         """Return the loop from the beginning, or from the restart data of an earlier one."""
 
+    @cached_property
+    def _kept(self) -> frozenset[float]:
+        return frozenset(self.fields.among(self.places, self.axis.name).tolist())
+
+    def keeps(self, state: ContactState) -> bool:
+        """True for a state whose fields are kept."""
+        over = self.axis.name
+        return self.fields.axis(over) == over or getattr(state, over) in self._kept
+
+    @property
+    def _scalar_leakage(self) -> CaseLeakage | None:
+        return self.leakage if self.leakage is not None and self.leakage.is_scalar else None
+
+    @property
+    def parts(self) -> frozenset[str]:
+        """Parts of its states that only some runs have."""
+        return self.contact.parts | ({LEAKAGE} if self._scalar_leakage else set())
+
+    def leaking(self, state: ContactState) -> ContactState:
+        """Return a state of the loop, with what leaks if the case names a fluid."""
+        fluid = self._scalar_leakage
+        return state if fluid is None else fluid.of(state, kept=self.keeps(state))
+
+    @property
+    def leakage_memory(self) -> float:
+        """Memory of the flow through the gap [bytes]."""
+        return 0.0 if self._scalar_leakage is None else leakage_memory(self._cells)
+
+    @property
+    def leakage_seconds(self) -> float:
+        """Predicted time of the flow at all instants whose fields are kept [s]."""
+        if self._scalar_leakage is None:
+            return 0.0
+        return len(self._kept) * leakage_seconds(self._cells)
+
+    @property
+    def _cells(self) -> int:
+        return self.grid.shape[0] * self.grid.shape[1]
+
     def recorded_state(self, state: ContactState) -> ContactState:
         """Return a state of the loop as it is written to the result."""
         return state
@@ -167,7 +210,18 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     @property
     def case(self) -> dict[str, Any]:
         """Description as plain data, which a run that is resumed must equal."""
-        return plain_case(self.description, self.fields, errors=self.errors)
+        return plain_case(
+            self.description, self.fields, errors=self.errors, leakage=self._fluid_settings
+        )
+
+    @property
+    def _fluid_settings(self) -> Mapping[str, Any]:
+        return {} if self.leakage is None else self.leakage.settings
+
+    @property
+    def fluid_attributes(self) -> dict[str, str]:
+        """Attribute of a result with the settings of its leakage; none without a fluid."""
+        return {LEAKAGE: json.dumps(self._fluid_settings)} if self._fluid_settings else {}
 
     @property
     @abstractmethod
@@ -214,9 +268,16 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
         return replace(self, setup=self.setup.with_transforms(library))
 
 
-def plain_case(described: Mapping[str, Any], fields: KeptFields, *, errors: bool) -> dict[str, Any]:
+def plain_case(
+    described: Mapping[str, Any],
+    fields: KeptFields,
+    *,
+    errors: bool,
+    leakage: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """Return the description of a run as plain data, with its output."""
     whole = {**described, "fields": describe(fields.requested), "errors": errors}
+    whole |= {LEAKAGE: leakage} if leakage else {}
     plain: dict[str, Any] = json.loads(json.dumps(whole))
     return plain
 

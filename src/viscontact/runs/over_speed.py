@@ -51,16 +51,17 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
     @property
     def memory(self) -> float:
         """Memory of the run [bytes]."""
-        return curve_memory(self.setup)
+        return curve_memory(self.setup) + self.leakage_memory
 
     @property
     def seconds(self) -> float:
         """Predicted time of the run on this machine [s]."""
-        return curve_seconds(self.setup, errors=self.errors)
+        return curve_seconds(self.setup, errors=self.errors) + self.leakage_seconds
 
     def forecast(self) -> Forecast:
         """Return the forecast of the run."""
-        return steady_forecast(self.setup, errors=self.errors)
+        found = steady_forecast(self.setup, errors=self.errors)
+        return replace(found, memory=self.memory, seconds=self.seconds)
 
     def states(self, saved: RestartData | None = None) -> SteadyCurve:
         """Return the loop over the speeds."""
@@ -73,7 +74,7 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
     def after(self, states: Sequence[ContactState]) -> OverSpeed:
         """Return the analysis on the grid of the first speeds only."""
         first = replace(self.setup, grids=self.setup.grids[: len(states)])
-        return OverSpeed(first, self.errors)
+        return OverSpeed(first, self.errors, self.leakage)
 
     def part(self, states: SteadyCurve, state: ContactState) -> float:
         """Finished part of the speeds."""

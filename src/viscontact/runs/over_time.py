@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from viscontact.backend.arrays import Floats
@@ -61,20 +62,21 @@ class OverTime(Analysis[RunSetup, March]):
     @property
     def memory(self) -> float:
         """Memory of the run [bytes]."""
-        return run_memory(self.setup)
+        return run_memory(self.setup) + self.leakage_memory
 
     @property
     def seconds(self) -> float:
         """Predicted time of the run on this machine [s]."""
         from viscontact.runs.forecast import run_seconds
 
-        return run_seconds(self.setup, errors=self.errors)
+        return run_seconds(self.setup, errors=self.errors) + self.leakage_seconds
 
     def forecast(self) -> Forecast:
         """Return the forecast of the run."""
         from viscontact.runs.forecast import forecast
 
-        return forecast(self.setup, errors=self.errors)
+        found = forecast(self.setup, errors=self.errors)
+        return replace(found, memory=self.memory, seconds=self.seconds)
 
     def states(self, saved: RestartData | None = None) -> March:
         """Return the march through the steps."""

@@ -10,6 +10,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.results.leakage.of_state import CaseLeakage
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
@@ -49,9 +50,12 @@ def prepared(
 
 def analysis_of(problem: Problem, threads: int = 1, *, errors: bool) -> Analysis[Any, Any]:
     """Prepare a problem, whose load is known, over time or over speed as its motion requires."""
+    fluid = None
+    if isinstance(problem, Case) and problem.leakage:
+        fluid = CaseLeakage(problem.leakage, problem.tolerance)
     if isinstance(motion := problem.motion, SteadyMotion):
-        return OverSpeed(prepare(steady_problem(problem, motion), threads), errors)
-    return OverTime(prepare_run(problem, threads), errors)
+        return OverSpeed(prepare(steady_problem(problem, motion), threads), errors, fluid)
+    return OverTime(prepare_run(problem, threads), errors, fluid)
 
 
 def predicted(prepared: PreparedRun) -> Forecast:

@@ -27,8 +27,6 @@ def solve(run: Analysis[Any, Any], progress: Progress | None = None) -> xr.Datas
     # ConvergenceError and DomainError of its states carry the result so far as `partial`.
     started = clock.perf_counter()
     loop, states = run.states(), list[ContactState]()
-    keep, axis = frozenset(run.fields.among(run.places, run.axis.name).tolist()), run.axis.name
-    keeps_all = run.fields.axis(axis) == axis
     try:
         for state in loop:
             if state is None:
@@ -37,8 +35,8 @@ def solve(run: Analysis[Any, Any], progress: Progress | None = None) -> xr.Datas
                 warnings.warn(text, AccuracyWarning, stacklevel=_CALLER)
             if progress is not None:
                 progress(state, loop.done, loop.done + loop.left)
-            kept = keeps_all or getattr(state, axis) in keep
-            states.append(state.with_own_fields() if kept else state.without_fields())
+            found = run.leaking(state)
+            states.append(found.with_own_fields() if run.keeps(state) else found.without_fields())
     except (ConvergenceError, DomainError) as stop:
         if states:
             bars = run.error_bars_so_far(loop, history_of(states)) if run.errors else None
@@ -68,6 +66,7 @@ def labelled(
     warned += bars.warnings if bars is not None else ()
     attributes = {
         **run.attributes,
+        **run.fluid_attributes,
         "started": date_and_time(wall_time),
         "wall_time": wall_time,
         "warnings": "\n".join(warned),

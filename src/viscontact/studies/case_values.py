@@ -54,6 +54,11 @@ def without_option(problem: str) -> str:
     return problem.removeprefix("--set ")
 
 
+def fields_setting(case: Case) -> dict[str, str]:
+    """Setting of runs without fields; none for a case with a leakage, which is found from them."""
+    return {} if case.leakage else {"output.fields": "none"}
+
+
 def fingerprint(case: Case) -> str:
     """Digest of a case and of the files that it names."""
     return hashlib.sha256(b"".join(sorted(case.digests.values()))).hexdigest()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,7 +17,7 @@ from viscontact.case import Case
 from viscontact.results.run_axis import RUN_AXES, SPEED, TIME, RunAxis
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.sweep_axes import over_of
-from viscontact.results.variables import SCALARS, error_name, scalars_with_error
+from viscontact.results.variables import OF_LEAKAGE, SCALARS, error_name, scalars_with_error
 
 #: Place of a scalar: that of its worst value, the last one, or a time [s] or a speed [m/s].
 At = Literal["worst", "end"] | float
@@ -102,12 +102,27 @@ def value_columns(
 
 def known_scalar(argument: str, name: str) -> str:
     """Name of a scalar with an error bar; ValueError for another one, with the argument."""
-    names = scalars_with_error()
+    names = [*scalars_with_error(), *OF_LEAKAGE]
     if name in names:
         return name
     close = difflib.get_close_matches(name, names, 1)
     hint = f"did you mean {close[0]}?" if close else f"one of {', '.join(names)}"
     raise ValueError(f"{argument}: {name!r} is no scalar of a result; {hint}")
+
+
+def require_fluid(case: Case, scalars: Iterable[str]) -> None:
+    """Raise ValueError for a scalar of the leakage that the case does not state."""
+    needed = [name for name in scalars if name in OF_LEAKAGE]
+    if not needed:
+        return
+    settings = case.leakage
+    if not settings or settings.get("along") == "both":
+        raise ValueError(
+            f"{needed[0]}: needs a section 'leakage' in the case, with the viscosity of the fluid "
+            "and one direction of its flow ('along: x')"
+        )
+    if "leak_rate" in needed and "pressure_difference" not in settings:
+        raise ValueError("leak_rate: needs a pressure_difference in the section 'leakage'")
 
 
 def places_of(case: Case) -> tuple[RunAxis, Floats]:

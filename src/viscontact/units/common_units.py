@@ -95,6 +95,9 @@ _FACTORS: dict[str, dict[str, float]] = {
         "cm^2": 0.0001,
     },
     "meter ** 3": {
+        "cm^3": 1.0000000000000002e-06,
+        "mm^3": 1e-09,
+        "um^3": 9.999999999999999e-19,
         "m^3": 1.0,
     },
     "meter / second": {
@@ -160,6 +163,13 @@ _FACTORS: dict[str, dict[str, float]] = {
     "meter ** 2 / kelvin / second ** 2": {
         "J/kg/K": 1.0,
         "J/(kg K)": 1.0,
+    },
+    "meter ** 3 / second": {
+        "mm^3/h": 2.777777777777778e-13,
+        "mm^3/s": 1e-09,
+        "ml/h": 2.777777777777778e-10,
+        "ml/min": 1.666666666666667e-08,
+        "m^3/s": 1.0,
     },
     "kilogram / meter ** 3": {
         "kg/m^3": 1.0,

@@ -56,13 +56,16 @@ DIMENSIONS = {
     "wear rate": Dimension(
         "a volume per force and way", "m^3/(N m)", "1e-7 mm^3/(N m)", ("mm^3/(N m)", "m^3/(N m)")
     ),
+    "volume": Dimension("a volume", "m^3", "1 um^3", ("um^3", "mm^3", "cm^3", "m^3")),
+    "leak rate": Dimension(
+        "a volume per time", "m^3/s", "1 mm^3/h", ("mm^3/h", "mm^3/s", "ml/h", "ml/min", "m^3/s")
+    ),
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 
 #: Other dimensions, to name what was given instead: "(got a mass)".
 OTHER_DIMENSIONS = {
     "kg": "a mass",
-    "m^3": "a volume",
     "1/s": "a frequency or a rate",
     "1/m": "a curvature",
     "K": "a temperature",

@@ -34,7 +34,7 @@ _PREFIXES = (
 _HOUR = 3600.0
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
 _WITHOUT_PREFIX = ("K", "1/K", "1/(Pa s)")
-_SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "m3": "m³", "1": ""}
+_SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "m3": "m³", "m3 s-1": "m³/s", "1": ""}
 
 
 def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
@@ -67,10 +67,11 @@ def unit_ladder(unit: str) -> list[tuple[ReadableUnit, float]]:
         return [(ReadableUnit(symbol, 1.0), 0.0)]
     # Kilometres, kiloseconds, kiloradians and picometres are unusual; force and work at a sharp tip
     # are small enough for all prefixes.
-    top = 1.0 if symbol in ("m", "m²", "m³", "s", "rad") else math.inf
+    top = 1.0 if symbol in ("m", "m²", "m³", "m³/s", "s", "rad") else math.inf
     bottom = 0.0 if symbol in ("N", "J") else 1e-9
     # Areas keep their unit down to a hundredth: 0.7 mm² reads better than 700000 µm²; volumes too.
-    power, least = {"m²": (2, 1e-2), "m³": (3, 1e-4)}.get(symbol, (1, 1.0))
+    powers = {"m²": (2, 1e-2), "m³": (3, 1e-4), "m³/s": (3, 1e-4)}
+    power, least = powers.get(symbol, (1, 1.0))
     usable = [(p**power, name) for p, name in _PREFIXES if bottom <= p <= top]
     # With a margin of 0.1 %, 0.9999 mm stays in millimetres.
     margin = least / 1.001
@@ -109,7 +110,7 @@ def column_heading(name: str, unit: str) -> str:
 
 def typed_unit(unit: str) -> str:
     """SI unit of results as it is typed behind a number."""
-    return "m^2" if unit == "m2" else unit
+    return {"m2": "m^2", "m3": "m^3", "m3 s-1": "m^3/s"}.get(unit, unit)
 
 
 def quoted(text: str, most: int = 60) -> str:

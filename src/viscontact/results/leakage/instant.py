@@ -36,6 +36,12 @@ class InstantLeakage:
     flow: FlowAxis
     tolerance: float  # relative error of the gap
 
+    @property
+    def extents(self) -> tuple[float, float]:
+        """Extents of the grid along and across the flow [m]."""
+        size = self.grid.size
+        return size[self.flow.axis], size[1 - self.flow.axis]
+
     @cached_property
     def opened(self) -> Bools:
         """Cells whose gap is more than the noise of the contact's solution."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -12,6 +11,7 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.leakage.channels import Ends, FlowAxis
+from viscontact.results.leakage.fluid import Fluid, flow_axis, fluid_of
 from viscontact.results.leakage.instant import InstantLeakage
 from viscontact.results.leakage.variables import VARIABLES
 from viscontact.results.leakage.warnings import leakage_warnings
@@ -19,31 +19,9 @@ from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
 from viscontact.results.stored_contact import cells_in_contact
-from viscontact.units.numbers import positive
 
 #: Tolerance of a run that does not state its own.
 _TOLERANCE = 1e-6
-
-
-@dataclass(frozen=True)
-class Fluid:
-    """Fluid, what drives it, and the seal that it leaks through."""
-
-    viscosity: float  # [Pa s]
-    pressure_difference: float | None  # [Pa]
-    gas: float | None  # pressure at the outlet of a gas [Pa]
-    length: float | None  # of the seal along the flow [m]
-    width: float | None  # across it [m]
-
-    def rate(self, transmissivity: Floats, length: float, width: float) -> Floats:
-        """Leak rate of a period of some length and width, or of the seal [m³/s]."""
-        if self.pressure_difference is None:
-            return np.full(transmissivity.shape, np.nan)
-        drop = self.pressure_difference
-        if self.gas is not None:  # (p1² - p2²)/(2 p2), at the pressure of the outlet
-            drop *= 1 + self.pressure_difference / (2 * self.gas)
-        shape = (self.width or width) / (self.length or length)
-        return np.asarray(transmissivity * drop * shape / self.viscosity)
 
 
 def leakage(  # noqa: PLR0913
@@ -123,14 +101,15 @@ def leakage(  # noqa: PLR0913
     >>> leak.percolates[0].values.tolist(), f"{float(leak.leak_rate[0, 0]) * 1e9:.3f} mm3/s"
     ([1.0, 0.0], '0.006 mm3/s')
     """
-    fluid = _fluid(viscosity, pressure_difference, gas, length, width)
+    given = {"viscosity": viscosity, "pressure_difference": pressure_difference, "gas": gas}
+    fluid = fluid_of({**given, "length": length, "width": width})
     if along not in ("x", "y", "both"):
         raise ValueError(f"along must be 'x', 'y' or 'both', got {along!r}")
     if fields not in ("none", "all"):
         raise ValueError(f"fields must be 'none' or 'all', got {fields!r}")
     places, grid = field_times(ds, "leakage"), recorded_grid(ds)
     axes = [0, 1] if along == "both" else ["xy".index(along)]
-    flows = [FlowAxis(axis, _ends(ends, grid, axis), _pair(grid)) for axis in axes]
+    flows = [flow_axis("xy"[axis], ends, grid) for axis in axes]
     instants = [list(each) for each in zip(*(_instants(ds, grid, f) for f in flows), strict=True)]
     found = _dataset(ds, instants, fluid, keep=fields == "all")
     if along != "both":
@@ -144,43 +123,8 @@ def leakage(  # noqa: PLR0913
 
 def instant_leakage(ds: xr.Dataset, index: int, along: str, ends: Ends | None) -> InstantLeakage:
     """Leakage of one stored instant, by its index, along one axis."""
-    grid, axis = recorded_grid(ds), "xy".index(along)
-    flow = FlowAxis(axis, _ends(ends, grid, axis), _pair(grid))
-    return _instant(ds, grid, flow, index)
-
-
-def _fluid(
-    viscosity: float,
-    pressure_difference: float | None,
-    gas: float | None,
-    length: float | None,
-    width: float | None,
-) -> Fluid:
-    given = {"pressure_difference": pressure_difference, "gas": gas}
-    given |= {"length": length, "width": width}
-    units = {"pressure_difference": "Pa", "gas": "Pa", "length": "m", "width": "m"}
-    checked = {
-        name: None if value is None else positive(name, value, units[name])
-        for name, value in given.items()
-    }
-    if gas is not None and pressure_difference is None:
-        raise ValueError("gas: needs pressure_difference=, as its flow is not proportional to it")
-    return Fluid(positive("viscosity", viscosity, "Pa s"), **checked)
-
-
-def _pair(grid: Grid) -> tuple[bool, bool]:
-    return bool(grid.periodic[0]), bool(grid.periodic[1])
-
-
-def _ends(given: Ends | None, grid: Grid, axis: int) -> Ends:
-    if given not in (None, "period", "pressure"):
-        raise ValueError(f"ends must be 'period' or 'pressure', got {given!r}")
-    if given == "period" and not grid.periodic[axis]:
-        raise ValueError(
-            f"ends: the grid is not periodic along {'xy'[axis]}; leave ends out, or give "
-            "ends='pressure'"
-        )
-    return given or ("period" if grid.periodic[axis] else "pressure")
+    grid = recorded_grid(ds)
+    return _instant(ds, grid, flow_axis(along, ends, grid), index)
 
 
 def _instants(ds: xr.Dataset, grid: Grid, flow: FlowAxis) -> Iterator[InstantLeakage]:
@@ -209,11 +153,10 @@ def _dataset(
     values = {
         key: np.array([[row[key] for row in at] for at in rows], dtype=float) for key in rows[0][0]
     }
-    extents = [_extents(each) for each in instants[0]]
     for key in ("", "_error"):
         rates = [
-            fluid.rate(values[f"transmissivity{key}"][:, k], *extent)
-            for k, extent in enumerate(extents)
+            fluid.rate(values[f"transmissivity{key}"][:, k], *each.extents)
+            for k, each in enumerate(instants[0])
         ]
         values[f"leak_rate{key}"] = np.stack(rates, axis=1)
     found: dict[str, Any] = {
@@ -226,12 +169,6 @@ def _dataset(
     directions = ["xy"[each.flow.axis] for each in instants[0]]
     places = {each: (each, ds[each].values, ds[each].attrs) for each in "xy"} if keep else {}
     return xr.Dataset(found, {"direction": directions, **places})
-
-
-def _extents(each: InstantLeakage) -> tuple[float, float]:
-    """Extents of the grid along and across the flow [m]."""
-    size = each.grid.size
-    return size[each.flow.axis], size[1 - each.flow.axis]
 
 
 def _fields(name: str, instants: list[list[InstantLeakage]], fluid: Fluid) -> dict[str, Any]:

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from viscontact.mechanics.state import LEAKAGE
 from viscontact.results.leakage.leakage import leakage
 from viscontact.results.run_axis import run_axis
-from viscontact.results.variables import LEAKAGE
 from viscontact.units.formatting import format_quantity
 
 

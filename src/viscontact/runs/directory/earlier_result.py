@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.bodies.grid import Grid
+from viscontact.mechanics.state import LEAKAGE
 from viscontact.results.damage import DamagedFileError
 from viscontact.results.descriptions import parse_case
 from viscontact.results.stored_result import StoredFile
@@ -48,7 +49,8 @@ def _case(file: StoredFile) -> dict[str, Any] | None:
     case = parse_case(str(file.getncattr("case")))
     fields = json.loads(str(file.getncattr("fields")))
     errors = json.loads(str(file.getncattr("errors"))) if "errors" in file.ncattrs() else False
-    return {**case, "fields": fields, "errors": errors}
+    fluid = {LEAKAGE: json.loads(str(file.getncattr(LEAKAGE)))} if LEAKAGE in file.ncattrs() else {}
+    return {**case, "fields": fields, "errors": errors, **fluid}
 
 
 def check_result(path: Path, layout: Layout, extent: Extent) -> None:

@@ -54,10 +54,10 @@ class Recorded:
             run.grid,
             run.places,
             run.fields,
-            {"title": self.title, **self.filed, **run.attributes, **about},
+            {"title": self.title, **self.filed, **run.attributes, **about, **run.fluid_attributes},
             run.errors,
             run.contact.tolerance if fits_single else 0.0,
-            parts=run.contact.parts,
+            parts=run.parts,
             over=run.axis.name,
         )
 

@@ -205,6 +205,7 @@ class Recorder:
 
     def _write(self, state: ContactState, failed: bool) -> None:
         assert self._lines is not None  # begun
+        state = self._recorded.run.leaking(state)
         part = self._recorded.run.part(self._march, state)
         is_last = part >= 1 and not failed
         if not is_last:

@@ -21,7 +21,7 @@ from viscontact.case.reader import digest
 #: Length of a digest [characters].
 _LENGTH = 16
 #: Sections without influence on the numbers, and key of the name of a file.
-_FILED, _FILE = ("title", "report", "allowable", "leakage"), "file"
+_FILED, _FILE = ("title", "report", "allowable"), "file"
 
 #: Digests of sections and files, by their names.
 Digests = Mapping[str, str]

@@ -85,7 +85,6 @@ def filed_case(case: Case) -> FiledCase:
         case.document.data_with_tolerances,
         case.measured,
         case.allowable,
-        case.leakage,
     )
 
 

@@ -27,8 +27,10 @@ from viscontact.units.parsing import parse_quantity
 
 #: Largest number of changes of a case that are listed.
 _MAX_CHANGES = 12
+#: What needs no other run.
+_ANOTHER_FLUID = "  (for another fluid: viscontact leakage DIR, with the settings as options)"
 #: Keys without influence on the numbers.
-_IRRELEVANT = ("title", "report", "allowable", "leakage")
+_IRRELEVANT = ("title", "report", "allowable")
 
 
 def standing(request: RunRequest, recorded: Recorded, case: Case) -> RunStage:
@@ -62,7 +64,8 @@ def refuse_changed(directory: Path, case: Case, changes: Iterable[Difference]) -
     refuse(
         f"{directory}: holds a run of another case; replace it with --overwrite, or choose another "
         "directory with -o DIR; what differs:",
-        *_case_changes(directory / CASE_NAME, case, changes),
+        *(lines := _case_changes(directory / CASE_NAME, case, changes)),
+        *([_ANOTHER_FLUID] if any(line.startswith("  leakage") for line in lines) else []),
     )
 
 

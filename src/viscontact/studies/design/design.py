@@ -14,6 +14,7 @@ from viscontact.case.errors import dotted
 from viscontact.studies.case_values import (
     case_path,
     case_with,
+    fields_setting,
     fingerprint,
     refuse_repeated,
     texts,
@@ -32,7 +33,7 @@ from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, ev
 from viscontact.studies.executors.executor_choice import chosen_workers
 from viscontact.studies.infeasible import InfeasibleError
 from viscontact.studies.journal import journal_of
-from viscontact.studies.scalars import require_instant
+from viscontact.studies.scalars import require_fluid, require_instant
 from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
 from viscontact.units.numbers import whole
@@ -183,7 +184,9 @@ def design(  # noqa: PLR0913
         **{"clear_of_ends": bool(clear_of_ends)},
     }
     cells = coarse_cells(own)
-    of_case = CaseTrials(path, fixed, scenarios, goals, limits, cells, bool(clear_of_ends))
+    require_fluid(own, [*(each.scalar for each in goals), *(each.scalar for each in limits)])
+    fields = fields_setting(own)
+    of_case = CaseTrials(path, fixed, scenarios, goals, limits, cells, fields, bool(clear_of_ends))
     journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:

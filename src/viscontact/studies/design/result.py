@@ -16,6 +16,7 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.case import Case, read_case
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS, error_name
+from viscontact.studies.case_values import case_with, fields_setting
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.trade_off import costs_of, not_dominated
@@ -172,7 +173,7 @@ class DesignResult(StudyResult):
         number = values.argmax() if self.goal.least else values.argmin()
         scenario = self.scenarios[int(number)]
         whole = {**self.fixed, **scenario.settings(settings)}
-        whole["output.fields"] = "none"
+        whole |= fields_setting(case_with(self.case, self.fixed))
         return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
 
     def __str__(self) -> str:

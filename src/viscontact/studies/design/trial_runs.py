@@ -30,12 +30,13 @@ class CaseTrials:
     goals: tuple[Goal, ...]
     constraints: tuple[Constraint, ...]
     coarse: Mapping[str, str]  # settings of the coarse cells
+    fields: Mapping[str, str]  # setting of the fields that are kept
     clear_of_ends: bool = False  # a contact that reaches a sharp end is as one without a limit
 
     def __call__(self, settings: Mapping[str, str], level: Level) -> list[SimulatedRun]:
         """Runs of a trial with some values, in the order of the scenarios."""
         cells = self.coarse if level == "coarse" else {}
-        fixed = {**self.settings, **cells, "output.fields": "none"}
+        fixed = {**self.settings, **cells, **self.fields}
         values = ", ".join(f"{key}={value}" for key, value in sorted(settings.items()))
         runs = []
         for number, each in enumerate(self.scenarios):

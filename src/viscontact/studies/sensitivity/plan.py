@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from viscontact.bodies.grid import Grid
 from viscontact.case import Case, CaseError
 from viscontact.runs.preparation import PreparedRun, prepared
-from viscontact.studies.case_values import case_with
+from viscontact.studies.case_values import case_with, fields_setting
 from viscontact.studies.cells import coarser, covering, grid_setting, shape_setting
 from viscontact.studies.evaluation import Level
 from viscontact.studies.sensitivity.differences import ABOVE, BELOW, CENTRAL, Stencil
@@ -61,6 +61,7 @@ class Plan:
     cells: Mapping[Level, Mapping[str, str]]  # settings of the common grid, by kind
     derivatives: tuple[Derivative, ...]
     samples: Samples | None = None
+    fields: Mapping[str, str] = field(default_factory=dict)  # setting of those that are kept
 
     def runs(self) -> list[VariedRun]:
         """Return all runs, first that of the case itself."""
@@ -81,7 +82,7 @@ class Plan:
     def _run(
         self, name: str, own: Mapping[str, str], varied: tuple[str, ...], cells: Level
     ) -> VariedRun:
-        settings = {**self.settings, **self.cells[cells], "output.fields": "none", **own}
+        settings = {**self.settings, **self.cells[cells], **self.fields, **own}
         directory = re.sub(r"[^\w.+-]+", "-", name)
         whole = self.case.parent.resolve() / self.case.name
         return VariedRun(whole, settings, varied, name, directory, "sample")
@@ -121,7 +122,7 @@ def planned(
     cells = _settings_of(case, grid)
     if not case.errors:
         del cells["coarse"]
-    return Plan(path, settings, cells, tuple(found), samples), notes
+    return Plan(path, settings, cells, tuple(found), samples, fields_setting(case)), notes
 
 
 def _of_samples(path: Path, settings: Mapping[str, str], samples: Samples) -> list[Grid]:

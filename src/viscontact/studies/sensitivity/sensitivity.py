@@ -24,7 +24,7 @@ from viscontact.studies.case_values import (
 )
 from viscontact.studies.evaluation import Progress
 from viscontact.studies.executors.executor_choice import require_executor
-from viscontact.studies.scalars import require_instant
+from viscontact.studies.scalars import require_fluid, require_instant
 from viscontact.studies.sensitivity.inputs import CaseNumber, input_of, inputs_of
 from viscontact.studies.sensitivity.outputs import OutputScalars, checked_outputs
 from viscontact.studies.sensitivity.plan import NOMINAL, Plan, planned
@@ -160,6 +160,7 @@ def sensitivity(  # noqa: PLR0913
     if length > MOST_STEP:
         raise ValueError(f"step: must be {MOST_STEP} at most, got {step!r}")
     own = case_with(path, fixed)
+    require_fluid(own, outputs)
     require_instant(own, at)
     if own.adaptive is not None:
         raise ValueError(
