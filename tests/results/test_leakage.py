@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import numpy as np
@@ -246,6 +247,58 @@ def test_period_ends_need_a_period() -> None:
         vc.leakage(free, **FLUID, ends="period")
 
 
+def rough_map(cells: int, seed: int = 1, closed: float = 0.2, most: int = 8) -> xr.Dataset:
+    """Result with the gap and displacement of a random map of some cells on its shortest wave."""
+    random, count = np.random.default_rng(seed), cells * most
+    k = np.fft.fftfreq(count) * count
+    q = np.hypot(k[:, None], k)
+    size = np.where((q > 0) & (q <= most), 1.0, 0.0)
+    field = np.fft.ifft2(size * np.exp(2j * np.pi * random.random(q.shape))).real
+    depth = 1e-6 * (field - np.quantile(field, closed)) / field.std()
+    ds = result(np.maximum(depth, 0.0), (1e-3, 1e-3))
+    return ds.assign(displacement=ds.gap.copy(data=np.maximum(-depth, 0.0)[None]))
+
+
+WARNED: dict[str, tuple[xr.Dataset, dict[str, Any], str]] = {
+    "coarse cells": (rough_map(5), {}, "5.0 cells lie on the shortest waves"),
+    "few waves": (rough_map(24, most=4), {}, "the period holds 2.* waves"),
+    "near closing": (rough_map(10, closed=0.4), {}, "near the 42 % at which rough"),
+    "steep": (result(1e3 * rough(1, 0.2), (1e-3, 1e-3)), {}, "the gap has slopes of"),
+    "fast": (
+        result(np.full((8, 8), 1e-4), (1e-3, 1e-3)),
+        {"pressure_difference": 1e5},
+        "the Reynolds number is .*, with the density of water",
+    ),
+    "fast gas": (
+        result(np.full((8, 8), 1e-4), (1e-3, 1e-3)),
+        {"viscosity": 2e-5, "gas": 1e5},
+        "the Reynolds number is .*, with the density of air",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WARNED)
+def test_what_makes_a_leak_rate_uncertain_is_warned_of(name: str) -> None:
+    ds, given, message = WARNED[name]
+    found = vc.leakage(ds, **{**FLUID, "pressure_difference": 1e2, **given})
+    assert re.search(message, found.attrs["warnings"])
+
+
+def test_fine_map_far_from_closing_has_no_warning() -> None:
+    fine = rough_map(10, most=12)
+    assert vc.leakage(fine, **{**FLUID, "pressure_difference": 1e2}).attrs["warnings"] == ""
+
+
+def test_narrow_channel_is_warned_of_by_its_cells() -> None:
+    narrow = np.zeros((8, 8))
+    narrow[:, 2:5] = 1e-6
+    notes = vc.leakage(result(narrow, (1e-3, 1e-3)), **FLUID).attrs["warnings"]
+    assert "the channel is 3 cells wide" in notes
+    wide = np.zeros((8, 8))
+    wide[:, [0, 1, 6, 7]] = 1e-6  # through the period
+    assert "cells wide" not in vc.leakage(result(wide, (1e-3, 1e-3)), **FLUID).attrs["warnings"]
+
+
 def test_doubts_are_warned_of() -> None:
     narrow = np.zeros((8, 8))
     narrow[:, 2], narrow[3, 2] = 1e-6, 1e-9
@@ -253,6 +306,50 @@ def test_doubts_are_warned_of() -> None:
     assert "a liquid is no continuum" in notes
     assert "a few cells wide" in notes
     assert vc.leakage(result(np.full((4, 4), 1e-6), (1e-3, 1e-3)), **FLUID).attrs["warnings"] == ""
+
+
+WAVES = vc.Waviness(1e-6, wavelength_x=1e-4, wavelength_y=1e-4)
+PERIOD = vc.Grid((16, 16), (1e-4, 1e-4), periodic=True)
+
+
+def up_and_down(law: vc.Law, mean_pressure: float, steps: int) -> xr.Dataset:
+    """Leakage of crossed waves under a force that rises and falls."""
+    load = vc.triangle(mean_pressure * PERIOD.area, 1.0)
+    body, times = vc.Material(law, 0.3), np.linspace(0.0, 2.0, steps + 1)
+    return vc.leakage(vc.simulate(WAVES, body, load, PERIOD, times, errors=False), **FLUID)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_elastic_contact_opens_at_the_force_at_which_it_has_closed() -> None:
+    found = up_and_down(vc.Elastic(80e9), 6e9, 16)
+    opened = found.percolates.values
+    np.testing.assert_array_equal(opened, opened[::-1])
+    assert opened.min() == 0 < opened.max()
+    np.testing.assert_allclose(found.critical_gap, found.critical_gap[::-1], atol=1e-11)
+    said = found.attrs["changes"].splitlines()
+    assert [line.split()[0] for line in said] == ["closes", "opens"]
+    finer = up_and_down(vc.Elastic(80e9), 6e9, 48)
+    assert float(finer.closing_force_error) < float(found.closing_force_error) / 2
+    far = abs(float(finer.closing_force) - float(found.closing_force))
+    assert far < float(found.closing_force_error)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_creep_keeps_channels_closed_while_the_load_falls() -> None:
+    found = up_and_down(vc.Zener(80e9, 40e9, 40e9), 1e9, 16)
+    gaps = found.critical_gap.values
+    assert (gaps[9:16] < gaps[7:0:-1]).all()  # at equal forces
+    assert gaps[16] > gaps[8]  # unloading opens them
+    # Held, it closes under a force that does not change.
+    held = vc.simulate(
+        *(WAVES, vc.Material(vc.Zener(80e9, 10e9, 10e9), 0.3), vc.step(1.5e9 * PERIOD.area)),
+        *(PERIOD, [0.0, 1.0, 20.0]),
+        errors=False,
+    )
+    closes = vc.leakage(held, **FLUID)
+    assert closes.percolates.values.tolist() == [1.0, 0.0, 0.0]
+    assert closes.attrs["changes"] == "closes between 0 s and 1 s, under 15 N"
+    assert float(closes.closing_force) == close_to(15.0)
 
 
 def same_waves(cells: int, seed: int) -> vc.Surface:

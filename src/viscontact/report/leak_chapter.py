@@ -34,6 +34,8 @@ def leak_chapter(ds: xr.Dataset) -> Iterator[Element]:
     if leak.sizes[run_axis(leak).name] > 1:
         rate = leak_rate(leak, along=along)
         yield drawn_figure(rate, "Leak rate and gaps at the stored instants.")
+    for change in str(leak.attrs["changes"]).splitlines():
+        yield remark(f"The contact {change}.")
     for note in str(leak.attrs["warnings"]).splitlines():
         yield remark(note)
     yield remark(

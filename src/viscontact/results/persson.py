@@ -104,7 +104,7 @@ def persson_area(
     >>> round(vc.surfaces.persson_area(surface, body, 1e4), 4)
     0.1711
     """
-    waves = _waves(surface, 1)
+    waves = rough_waves(surface, 1)
     _require_half_space(material)
     pressures = _pressures(pressure)
     compliance = material.contact_compliance()
@@ -182,7 +182,7 @@ def persson_sliding(
     [4e-05, 0.00296, 0.00036]
     """
     axis = _axis(along)
-    waves, poisson_ratio = _waves(surface, axis), _require_half_space(material)
+    waves, poisson_ratio = rough_waves(surface, axis), _require_half_space(material)
     level = float(_pressures(real("pressure", pressure, "Pa")))
     speeds = np.atleast_1d(real_array("speed", speed, "m/s"))
     if speeds.ndim != 1 or not (np.isfinite(speeds) & (speeds > 0)).all():
@@ -242,7 +242,7 @@ def _modulus(material: Material, poisson_ratio: float, omega: Floats) -> Numbers
     return np.asarray(np.where(omega < 0, values.conj(), values))
 
 
-def _waves(surface: object, axis: int) -> RoughWaves:
+def rough_waves(surface: object, axis: int) -> RoughWaves:
     """Waves of a map in the order of their wave number."""
     given = surface_of(surface) if is_topography(surface) else surface
     if not isinstance(given, Surface):

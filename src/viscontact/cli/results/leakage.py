@@ -90,6 +90,8 @@ def _print(found: xr.Dataset) -> None:
     console.print(table, crop=False)
     if not factor:
         put("Give --pressure-difference for the leak rate.")
+    for change in str(found.attrs["changes"]).splitlines():
+        put(f"the contact {change}")
     for note in str(found.attrs["warnings"]).splitlines():
         console.warn(note, soft_wrap=True)
 

@@ -60,6 +60,25 @@ class InstantLeakage:
         """True if a channel leads through."""
         return self.critical[0] > 0
 
+    @property
+    def cells_across(self) -> int:
+        """Open cells across the critical constriction, along x or y, where they are fewer."""
+        _, i, j = self.critical
+        lines = zip((self.opened[:, j], self.opened[i]), (i, j), self.grid.periodic, strict=True)
+        return min(_run_length(line, at, wraps=bool(wraps)) for line, at, wraps in lines)
+
+    def slope(self, part: float) -> float:
+        """Slope of the gap that a part of the channel's cells does not exceed [-]."""
+        squares = np.zeros(self.gap.shape)
+        for axis, (cell, repeats) in enumerate(
+            zip(self.grid.cell_size, self.grid.periodic, strict=True)
+        ):
+            rise = np.diff(self.gap, axis=axis, append=np.take(self.gap, [0], axis)) / cell
+            if not repeats:
+                np.moveaxis(rise, axis, 0)[-1] = 0.0
+            squares += np.square(rise)
+        return float(np.sqrt(np.quantile(squares[self.cells], part)))
+
     @cached_property
     def cells(self) -> Bools:
         """Cells of the channels."""
@@ -118,3 +137,14 @@ class InstantLeakage:
             else np.nan,
             "flux_imbalance": 0.0 if self.solution is None else self.solution.imbalance,
         }
+
+
+def _run_length(line: Bools, at: int, *, wraps: bool) -> int:
+    """Number of open cells in a row around a place; of an endless row a large one."""
+    shut = np.flatnonzero(~line)
+    if not shut.size:
+        return np.iinfo(int).max if wraps else line.size
+    if wraps:
+        return int(((shut - at) % line.size).min() + ((at - shut) % line.size).min() - 1)
+    before, after = shut[shut < at], shut[shut > at]
+    return int(after.min(initial=line.size) - before.max(initial=-1) - 1)

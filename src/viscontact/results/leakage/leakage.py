@@ -11,6 +11,7 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.leakage.channels import Ends, FlowAxis
+from viscontact.results.leakage.closing import changes, closing_force, scalar_at_fields
 from viscontact.results.leakage.fluid import Fluid, flow_axis, fluid_of
 from viscontact.results.leakage.instant import InstantLeakage
 from viscontact.results.leakage.variables import VARIABLES
@@ -19,6 +20,7 @@ from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
 from viscontact.results.stored_contact import cells_in_contact
+from viscontact.results.variables import SCALARS
 
 #: Tolerance of a run that does not state its own.
 _TOLERANCE = 1e-6
@@ -69,7 +71,10 @@ def leakage(  # noqa: PLR0913
         of the widest channel, at ``critical_x``, ``critical_y``; ``effective_gap``
         (12 T)^(1/3), ``mean_gap`` [m], ``contact_fraction``, ``flux_imbalance`` [-] and
         ``transmissivity_effective_medium``, an estimate from the distribution of gaps alone. A
-        contact without any channel has T, leak rate and critical gap 0. Warnings are an attribute.
+        contact without any channel has T, leak rate and critical gap 0. ``closing_force`` [N] is
+        the force at which the flow first stops, with half the step of the stored instants as its
+        error, NaN if it does not. Attributes: ``changes``, a sentence for each closing and
+        opening, and ``warnings``.
 
     Raises
     ------
@@ -116,9 +121,26 @@ def leakage(  # noqa: PLR0913
         found = found.isel(direction=0, drop=True)
     name = run_axis(ds).name
     found = found.assign_coords({name: (name, places, ds[ds["pressure"].dims[0]].attrs)})
-    notes = leakage_warnings(found, ds, fluid.pressure_difference, gas)
+    found = found.assign(force=(name, scalar_at_fields(ds, "force"), SCALARS["force"].attributes))
+    found = found.assign(_closing(found))
+    notes = leakage_warnings(found, ds, instants, fluid)
     described = {"viscosity": viscosity, "ends": [each.ends for each in flows], "along": along}
-    return found.assign_attrs({**described, "warnings": "\n".join(notes)})
+    said = {"warnings": "\n".join(notes), "changes": "\n".join(changes(found))}
+    return found.assign_attrs({**described, **said})
+
+
+def _closing(found: xr.Dataset) -> dict[str, Any]:
+    """Force at which the flow stops, with its error, in each direction."""
+    opened, force = found["percolates"].values > 0, found["force"].values
+    names = ("closing_force", "closing_force_error")
+    if opened.ndim == 1:
+        values = closing_force(opened, force)
+        return {n: ((), v, VARIABLES[n].attributes) for n, v in zip(names, values, strict=True)}
+    both = zip(*(closing_force(each, force) for each in opened.T), strict=True)
+    return {
+        name: ("direction", np.array(values), VARIABLES[name].attributes)
+        for name, values in zip(names, both, strict=True)
+    }
 
 
 def instant_leakage(ds: xr.Dataset, index: int, along: str, ends: Ends | None) -> InstantLeakage:

@@ -18,6 +18,8 @@ VARIABLES = {
     "contact_fraction": Variable("1", "share of cells in contact"),
     "transmissivity_effective_medium": Variable("m3", "transmissivity of an effective medium"),
     "flux_imbalance": Variable("1", "largest relative difference of the flow through two sections"),
+    "closing_force": Variable("N", "force at which the flow first stops"),
+    "closing_force_error": Variable("N", "half of the force between the stored instants"),
     "fluid_pressure": Variable("Pa", "pressure of the fluid over that at the outlet"),
     "flux_x": Variable("m2 s-1", "flow of the fluid along x, for a unit of width"),
     "flux_y": Variable("m2 s-1", "flow of the fluid along y, for a unit of width"),

@@ -1,0 +1,40 @@
+"""Waves of the rough map of a contact, by its gap and displacement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from viscontact.bodies.surfaces import Surface
+from viscontact.results.persson import rough_waves
+from viscontact.results.recorded_case import recorded_grid
+
+#: Equal waves that have the spectrum of a map, from which on it counts as rough.
+_MANY = 20.0
+
+
+@dataclass(frozen=True)
+class MapWaves:
+    """Numbers of waves and cells of a rough map."""
+
+    cells: float  # on the shortest wave that counts
+    count: float  # waves of the mean length on a period
+
+
+def map_waves(ds: xr.Dataset) -> MapWaves | None:
+    """Waves of a map on a period; None on other grids, and for a body of a few waves."""
+    grid = recorded_grid(ds)
+    if not all(grid.periodic) or min(grid.shape) < 2 or "displacement" not in ds:
+        return None
+    # The undeformed gap, but for the approach.
+    height = np.asarray(ds["displacement"].values[-1] - ds["gap"].values[-1], dtype=np.float64)
+    if not np.isfinite(height).all() or np.ptp(height) == 0:
+        return None
+    waves = rough_waves(Surface(height, grid.cell_size, periodic=True), 0)
+    squares = waves.slope / waves.wave_number**2
+    if squares.sum() ** 2 < _MANY * np.square(squares).sum():
+        return None
+    mean = float((waves.wave_number * squares).sum() / squares.sum())
+    return MapWaves(waves.cells, mean * min(grid.size) / (2 * np.pi))
