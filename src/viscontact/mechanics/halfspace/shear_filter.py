@@ -27,6 +27,10 @@ from viscontact.mechanics.halfspace.shear_influence import ShearTables
 Entries = tuple[Numbers, Numbers, Numbers]
 
 
+#: Operators of different weights that are kept.
+MOST_SUMS = 4
+
+
 class PairFilter(ABC):
     """Pairs of fields whose spectra are those of given pairs times a symmetric matrix."""
 
@@ -166,11 +170,17 @@ class Parts:
 
     def __init__(self, direct: PairFilter, poisson: PairFilter) -> None:
         self._both = direct, poisson
+        self._sums: dict[tuple[float, float, bool], PairFilter] = {}
 
     def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> PairFilter:
         """Operator of given weights of both parts."""
-        found = self._both[0].sum_of(self._both, (direct, poisson))
-        return found.in_single() if single else found
+        key = direct, poisson, single
+        if key not in self._sums:
+            if len(self._sums) == MOST_SUMS:  # of a Poisson's ratio that varies
+                self._sums.clear()
+            found = self._both[0].sum_of(self._both, (direct, poisson))
+            self._sums[key] = found.in_single() if single else found
+        return self._sums[key]
 
 
 def _parts(

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
+from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.problem import SlipSolution
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
 from viscontact.mechanics.contact.friction.rigid_shift import ShiftConstraints
@@ -105,7 +106,7 @@ class SlipState:
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
         mean = coefficient * (self.pressure + pressure) / 2
-        lost = mean * np.hypot(*step.slip)
+        lost = mean * lengths(step.slip)
         return SlipState(
             step.traction,
             np.where(pressure > 0, self.slip + step.slip, 0.0),

@@ -53,7 +53,8 @@ def entry_compliance(
         along, across = _ratios(_radii(enters, before > 0, gap), kappa)
     x, y = _edge_normal(gap, enters, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
-    found[:, enters] = np.stack([xx, (along - across) * x * y, yy]) * compliance
+    i, j = np.nonzero(enters)
+    found[:, i, j] = np.stack([xx, (along - across) * x * y, yy]) * compliance
     return found
 
 

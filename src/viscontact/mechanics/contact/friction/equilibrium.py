@@ -31,7 +31,7 @@ FALLBACKS = (1.0, 0.3)
 ROUNDING = 1e-11
 
 #: Residual up to which tractions are judged in double precision.
-CLOSE = 1e-3
+CLOSE = 1e-5
 
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
@@ -85,7 +85,8 @@ def _judged(
     problem: SlipProblem, block: ShearBlock, traction: Floats, motion: Floats | None = None
 ) -> SlipResidual:
     """Residual of a traction by a fresh convolution, near a motion."""
-    return slip_residual(problem, block.shift, traction, block.convolution.apply(traction), motion)
+    moved = block.convolution.apply(traction) if traction.any() else np.zeros(traction.shape)
+    return slip_residual(problem, block.shift, traction, moved, motion)
 
 
 def _judged_near(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,11 +25,14 @@ from viscontact.mechanics.halfspace.shear_filter import (
     shear_convolution,
     shear_preconditioner,
 )
-from viscontact.mechanics.halfspace.shear_influence import shear_tables
+from viscontact.mechanics.halfspace.shear_influence import ShearTables, shear_tables
 
 #: Cells around a contact, and numbers of cells that extents are a multiple of, so that a contact
 #: that grows slowly keeps its region.
 MARGIN, MULTIPLE = 1, 8
+
+#: Growth of a region for which coefficients are computed in advance.
+GROWTH = 1.25
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,7 @@ class ShearDomain:
     ) -> None:
         self.grid, self._transforms, self._symmetry = grid, transforms, symmetry
         self._parts: dict[tuple[int, int], Parts] = {}
+        self._table: ShearTables | None = None
         self._blocks: dict[tuple[Region, float], ShearBlock] = {}
 
     def region_of(self, cells: Bools) -> Region:
@@ -157,14 +162,29 @@ class ShearDomain:
             shape = 2 * shape[0], 2 * shape[1]
         if all(grid.periodic):
             return periodic_shear_convolution(shape, grid.cell_size, **options)
-        if any(grid.periodic):
-            tables = shear_tables(grid).within(shape)
-        else:
-            size = (shape[0] * grid.cell_size[0], shape[1] * grid.cell_size[1])
-            tables = shear_tables(Grid(shape, size))
+        repeats = any(grid.periodic)
+        tables = shear_tables(grid).within(shape) if repeats else self._table_for(shape)
         if self._symmetry is not None:
             return mirrored_shear_convolution(tables, self._symmetry.even, **options)
         return shear_convolution(tables, (grid.periodic[0], grid.periodic[1]), **options)
+
+    def _table_for(self, shape: tuple[int, int]) -> ShearTables:
+        """Coefficients of a block, out of those of a larger one that it may grow to."""
+        # The larger one follows from the block alone, so that a resumed run has the same bits.
+        counts = [
+            max(count, min(_rounded_up(count), most))
+            for count, most in zip(shape, self.grid.shape, strict=True)
+        ]
+        larger = counts[0], counts[1]
+        if self._table is None or self._table.direct.shape != larger:
+            (nx, ny), (dx, dy) = larger, self.grid.cell_size
+            self._table = shear_tables(Grid(larger, (nx * dx, ny * dy)))
+        return self._table.within(shape)
+
+
+def _rounded_up(count: int) -> int:
+    """Next power of GROWTH."""
+    return math.ceil(GROWTH ** math.ceil(math.log(count, GROWTH)))
 
 
 def _span(lines: Bools) -> tuple[int, int]:
