@@ -4,6 +4,13 @@ The elastic ones take the contact modulus E* [Pa], the viscoelastic ones a creep
 J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables, or just one of the two.
 """
 
+from viscontact.reference.adhesion import (
+    AdhesiveSphere,
+    AdhesiveState,
+    jkr_sphere,
+    maugis_dugdale,
+    tabor_number,
+)
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.friction import PartialSlip, cattaneo_mindlin
 from viscontact.reference.hertz import (
@@ -52,6 +59,8 @@ from viscontact.reference.ting_triangle import TingTriangle, ting_triangle
 from viscontact.reference.wavy import WavyContact, full_contact_pressure, westergaard
 
 __all__ = [
+    "AdhesiveSphere",
+    "AdhesiveState",
     "AxisymmetricContact",
     "ConeContact",
     "ConeProfile",
@@ -81,10 +90,12 @@ __all__ = [
     "hertz_elliptical",
     "hertz_line",
     "hertz_sphere",
+    "jkr_sphere",
     "layer_punch",
     "layer_sphere",
     "lee_radok_ramp",
     "lee_radok_step",
+    "maugis_dugdale",
     "moving_cylinder",
     "moving_wave_resistance",
     "point_load",
@@ -99,6 +110,7 @@ __all__ = [
     "slow_friction_coefficient",
     "strip_on_layer",
     "strip_stresses",
+    "tabor_number",
     "ting_cycles",
     "ting_force_triangle",
     "ting_hump",
