@@ -146,6 +146,11 @@ class ContactDomain:
         return field
 
     @property
+    def periodic(self) -> tuple[bool, bool]:
+        """True for x and for y along which the surface repeats."""
+        return self.grid.periodic[0], self.grid.periodic[1]
+
+    @property
     def symmetry_count(self) -> int:
         """Number of mirror images that make up the whole grid."""
         return (1 + self.mirrored[0]) * (1 + self.mirrored[1])

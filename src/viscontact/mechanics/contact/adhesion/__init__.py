@@ -1,0 +1,1 @@
+"""Contact of bodies that attract each other."""

@@ -1,0 +1,172 @@
+"""Descent of an adhesive contact to the nearest stable state.
+
+With the attraction of the last iterate held, what remains is a contact under p >= 0, whose gap
+gives the next attraction. For a law that decreases, the work of the attraction is a concave
+function of its gap, which this replaces by its tangent: the energy falls in each iteration. Under a
+given approach the iterates of a body that approaches, or is withdrawn, change one way only: they
+end at the nearest state on their way, which is the one that a body takes where its state ceases to
+exist.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, attraction
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import solve_contact
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
+
+#: Tolerance of the contacts of a descent.
+CONTACT_TOLERANCE = 1e-8
+
+#: Iterations of one call.
+MAX_ITERATIONS = 300
+
+#: Change of the attraction in one iteration, in strengths, below which the iterates are near a
+#: state, or pass the place of one that has just ceased to exist; those are passed in steps of this
+#: length. Ratio of successive changes up to which they approach a state [-].
+NEAR, CONVERGES = 3e-2, 0.8
+
+#: Corrections of the approach of a body on a spring in each iteration.
+MAX_SECANTS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Descended:
+    """Iterate of a descent."""
+
+    guess: Guess  # pressure with its displacement, and motion
+    traction: Floats  # attraction that the next iteration begins with [Pa]
+    change: float  # largest change of the attraction in the last iteration [Pa]
+    growth: float  # mean change in the last iteration [Pa]
+    detached: bool = False  # True if the attraction does not carry the force any more
+
+
+class Descent:
+    """Iterations from an attraction to the nearest stable state."""
+
+    def __init__(self, problem: AdhesiveProblem, domain: ContactDomain, traction: Floats) -> None:
+        self._problem, self._domain, self._law = problem, domain, problem.law.decreasing
+        self._traction = traction
+        self._pressed: Guess | None = None
+        self.convolutions = self.iterations = 0
+        self._last: Descended | None = None
+
+    @property
+    def is_spent(self) -> bool:
+        """True if no iteration is left."""
+        return self.iterations >= MAX_ITERATIONS
+
+    def run(self) -> Descended:
+        """Iterate until the attraction approaches a state, or turns back from one it has passed."""
+        near = NEAR * self._problem.law.strength
+        while True:
+            before, last = self._traction, self._last
+            found = self._iterate()
+            self._last = found
+            self.iterations += 1
+            if found.detached or self.is_spent:
+                return found
+            if last is None or found.change > near:
+                continue
+            turns = found.growth * last.growth < 0
+            if turns or found.change <= CONVERGES * last.change or found.change == 0:
+                return found
+            # Hardly slower than before: a step along the same way, of the length that is near.
+            way = found.traction - before
+            self._traction = np.maximum(before + (near / found.change) * way, 0.0)
+
+    def _iterate(self) -> Descended:
+        """Contact under the attraction so far, and that of its gap."""
+        problem, domain = self._problem, self._domain
+        pulled = np.empty((2, *domain.shape))
+        pulled[0] = self._traction
+        domain.convolution.apply(pulled[0], into=pulled[1])
+        self.convolutions += 1
+        contact = problem.contact
+        open_gap = contact.open_gap - contact.compliance * pulled[1]
+        resultants = domain.whole.plane.sums(self._traction) * domain.whole.cell_area
+        free = contact.constraints.free
+        targets = contact.constraints.targets + resultants
+        if free[0] and problem.spring == 0 and targets[0] <= 0:
+            given = contact.constraints.with_prescribed(np.zeros(3))
+            nothing = Guess(np.zeros((2, *domain.shape)), given)
+            return Descended(nothing, self._traction, np.inf, -np.inf, detached=True)
+        pressed = self._pressed_under(open_gap, targets)
+        self._pressed = pressed
+        gap = open_gap + contact.compliance * pressed.unit_displacement
+        gap -= domain.whole.plane.field(pressed.motion)
+        traction = attraction(self._law, gap, domain.periodic).traction
+        change = traction - self._traction
+        guess = Guess(pressed.values - pulled, pressed.motion)
+        self._traction = traction
+        return Descended(guess, traction, float(np.abs(change).max()), float(change.mean()))
+
+    def _pressed_under(self, open_gap: Floats, targets: Floats) -> Guess:
+        """Contact under p >= 0 by itself, with the resultants that include the attraction's."""
+        contact = replace(self._problem.contact, open_gap=open_gap)
+        given = contact.constraints
+        force, moment_x, moment_y = (
+            float(target) if free else None
+            for target, free in zip(targets, given.free, strict=True)
+        )
+        resultants = force, moment_x, moment_y
+        contact = replace(contact, constraints=replace(given, resultants=resultants))
+        if self._problem.spring:
+            return self._on_spring(contact, float(targets[0]))
+        return self._solved(contact)
+
+    def _solved(self, contact: ContactProblem) -> Guess:
+        domain, constraints = self._domain, contact.constraints
+        motion = constraints.with_prescribed(
+            np.zeros(3) if self._pressed is None else self._pressed.motion
+        )
+        apart = not constraints.free[0] and not constraints.free.any()
+        if apart and (contact.open_gap >= domain.whole.plane.field(motion)).all():
+            return Guess(np.zeros((2, *domain.shape)), motion)
+        guess = None
+        if self._pressed is not None and self._pressed.pressure.any():
+            guess = Guess(self._pressed.values.copy(), motion)
+        found = solve_contact(contact, domain, guess, tolerance=CONTACT_TOLERANCE)
+        self.convolutions += found.convolutions
+        return found.found
+
+    def _on_spring(self, contact: ContactProblem, target: float) -> Guess:
+        """Contact of a body on a spring: k · approach + force is given; by regula falsi."""
+        spring, area = self._problem.spring, self._domain.whole.cell_area
+
+        def excess(approach: float) -> tuple[float, Guess]:
+            constraints = replace(
+                contact.constraints,
+                resultants=(None, *contact.constraints.resultants[1:]),
+                motions=(approach, *contact.constraints.motions[1:]),
+            )
+            found = self._solved(replace(contact, constraints=constraints))
+            return spring * approach + float(found.pressure.sum()) * area - target, found
+
+        high = target / spring  # without any contact
+        value, found = excess(high)
+        if value <= 0:
+            return found
+        step, low = abs(value) / spring / 4, high
+        upper = value
+        while value > 0:
+            high, upper = low, value
+            low, step = low - step, 2 * step
+            value, found = excess(low)
+        lower = value
+        scale = max(abs(target), spring * abs(high))
+        for _ in range(MAX_SECANTS):
+            middle = low - lower * (high - low) / (upper - lower)
+            value, found = excess(middle)
+            if abs(value) <= CONTACT_TOLERANCE * scale:
+                break
+            if value > 0:
+                high, upper, lower = middle, value, lower / 2
+            else:
+                low, lower, upper = middle, value, upper / 2
+        return found
