@@ -169,7 +169,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("indenter.shape=5", "indenter.shape: unknown value '5'"),
         ("indenter=[]", "indenter: has too few entries"),
         ("indenter=sphere", "indenter: must be a section with keys of its own, got 'sphere'"),
-        ("load.force=-10 N", "load.force: must be zero or more, got '-10 N'"),
+        ("load.force=-10 N", "load.force: must be zero or more without adhesion, got -10 N"),
         ("load.force=nan N", "load.force: 'nan N' is not a finite number"),
         ("load.force=inf N", "load.force: 'inf N' is not a finite number"),
         ("load.approach=1 mm", "load.force: force and approach exclude each other"),
@@ -408,7 +408,7 @@ def test_schema_names_every_key_and_shows_units() -> None:
         *("title", "indenter", "material", "indenter_material", "load", "time", "grid", "motion"),
         *("output", "tolerance", "report", "allowable", "temperature", "leakage"),
         *("output", "tolerance", "report", "allowable", "temperature"),
-        *("friction", "tangential"),
+        *("friction", "tangential", "adhesion"),
     }
     radius = schema["$defs"]["Sphere"]["properties"]["radius"]
     assert radius["examples"] == ["5 mm"]

@@ -169,11 +169,15 @@ LINE = "case.yaml:3: "
         (
             {"kind": "step", "force": "1 N", "sentences": "unload"},
             "load.sentences: unknown key. Allowed: approach, eccentricity_x, eccentricity_y, force,"
-            " kind, mean_pressure, misalignment, tilt_x, tilt_y. It goes with kind: history",
+            " kind, mean_pressure, misalignment, stage_stiffness, tilt_x, tilt_y. It goes with kind:"
+            " history",
         ),
         ({**SWING, "approach": "1 mm"}, "load.mean: mean and approach exclude each other"),
         ({**SWING, "amplitude": "2 mm"}, "load.amplitude: must be a force, as the mean is"),
-        ({**SWING, "amplitude": "4 N"}, "load.mean: the force must never be negative, but varies"),
+        (
+            {**SWING, "amplitude": "4 N"},
+            "load.mean: must be zero or more without adhesion, got -1 N",
+        ),
         ({**SWING, "amplitude": "2 Pa"}, "load.amplitude: cannot read '2 Pa' as a force or a leng"),
         ({**SWING, "cycles": 0}, "load.cycles: must be greater than or equal to 1, got 0"),
         ({**SWING, "cycles": 1.5}, "load.cycles: must be a whole number, got 1.5"),
@@ -196,7 +200,7 @@ LINE = "case.yaml:3: "
         ),
         (
             {"kind": "history", "points": [["0 s", "0 N"], ["1 s", "-1 N"]]},
-            "load.points[2]: a force must be zero or more, got -1 N",
+            "load.points[2]: must be zero or more without adhesion, got -1 N",
         ),
         (
             {"kind": "history", "points": [["0 s", "0 N"], ["1 s", "1 MPa"]]},
@@ -251,7 +255,7 @@ def test_bad_load_is_one_line_at_its_key(load: Any, said: str, tmp_path: Path) -
         ),
         ("time [s], force [N]\n0, 1\n2, 3\n1, 3\n", "load.csv:4: time must not decrease, got 2 s"),
         ("time [s], force [N]\n-1, 1\n", "load.csv:2: time must not decrease, got 0 s followed by"),
-        ("time [s], force [N]\n0, -1\n", "force must be zero or more, got -1.0 N"),
+        ("time [s], force [N]\n0, -1\n", "must be zero or more without adhesion, got -1 N"),
         ("time [s], force [N]\n0, 1,5\n", "load.csv:2 has 3 entries, the header 2"),
         (
             "time [s], approach [m], eccentricity_x [m]\n0, 0, 1\n",

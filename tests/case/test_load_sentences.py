@@ -33,7 +33,7 @@ def said_of(error: ValidationError) -> str:
 
 
 def course(*texts: str) -> LoadPoints:
-    return course_of(read_sentences(texts))
+    return course_of(read_sentences(texts), may_pull=False)
 
 
 def points(*texts: str) -> list[tuple[float, float]]:

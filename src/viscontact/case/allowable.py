@@ -20,8 +20,8 @@ _Torque = Annotated[float, WithUnit("torque", POSITIVE)]
 _Stiffness = Annotated[float, WithUnit("stiffness", POSITIVE)]
 _Ratio = Annotated[float, Field(gt=0)]
 
-#: Quantities that only moving contacts have, only those under friction, and those that steady
-#: motion does not have.
+#: Quantities that only moving contacts have, only those under friction, only those with adhesion,
+#: and those that steady motion does not have.
 MOVING = (
     *("resistance_x", "resistance_y", "friction_coefficient", "motion_work"),
     *("dissipation", "heat"),
@@ -31,6 +31,7 @@ GRIPPING = (
     *("tangential_displacement_x", "tangential_displacement_y", "slip_fraction"),
     *("friction_heat", "friction_power", "tangential_stiffness_x", "tangential_stiffness_y"),
 )
+ADHERING = ("least_pressure", "tensile_area", "adhesion_energy")
 NOT_STEADY = ("work", "loss_per_cycle", "motion_work", "heat")
 
 
@@ -99,14 +100,21 @@ class Allowable(Section):
     friction_power: _Power | None = Field(default=None, description="heat of friction over time")
     tangential_stiffness_x: _Stiffness | None = Field(default=None, description="along x")
     tangential_stiffness_y: _Stiffness | None = Field(default=None, description="along y")
+    least_pressure: _Stress | None = Field(default=None, description="largest tension")
+    tensile_area: _Area | None = Field(
+        default=None, description="area outside the contact that pulls"
+    )
+    adhesion_energy: _Energy | None = Field(
+        default=None, description="work that separating the surfaces would take"
+    )
 
     @property
     def limits(self) -> dict[str, float]:
         """The given limits, by name, in SI units."""
         return {name: limit for name, limit in self.model_dump().items() if limit is not None}
 
-    def require_known(self, *, moving: bool, steady: bool, grips: bool) -> None:
-        """Raise ValueError for a quantity that a run lacks, by its motion and friction."""
+    def require_known(self, *, moving: bool, steady: bool, grips: bool, adheres: bool) -> None:
+        """Raise ValueError for a quantity that a run lacks, by its motion and its surfaces."""
         for name in self.limits:
             if name in MOVING and not moving:
                 raise ValueError(
@@ -116,6 +124,11 @@ class Allowable(Section):
                 raise ValueError(
                     f"allowable.{name}: only a contact under friction has it; add friction and a "
                     "tangential load, or leave it out"
+                )
+            if name in ADHERING and not adheres:
+                raise ValueError(
+                    f"allowable.{name}: only a contact with adhesion has it; add adhesion, or "
+                    "leave it out"
                 )
             if name in NOT_STEADY and steady:
                 raise ValueError(f"allowable.{name}: steady motion does not have it; leave it out")

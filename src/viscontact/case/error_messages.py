@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from viscontact.case import time_grid_output
+from viscontact.case.adhesion import AdhesionSection
 from viscontact.case.aliases import aliases_of, known_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.document import Document, as_written
@@ -40,6 +41,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
     "allowable": Allowable,
     "leakage": Leakage,
     "friction": FrictionSection,
+    "adhesion": AdhesionSection,
 }
 # Shifts and motions, like loads, are identified by `kind`.
 _SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)

@@ -147,6 +147,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         load=found.history(),
         motion=motion,
         temperature=found.temperature.built if found.temperature else None,
+        adhesion=found.adhesion.built if found.adhesion else None,
         friction=found.friction.built if found.friction else None,
         tangential=found.tangential.built if found.tangential else None,
         title_block=found.report.entries,

@@ -13,6 +13,7 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
+from viscontact.case.adhesion import AdhesionSection
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.friction import FrictionSection
@@ -49,6 +50,9 @@ class CaseFile(Section):
         description="temperature of all bodies, constant or over time, to which the shifts of "
         "their materials take the laws; laws are used as they are when left out",
     )
+    adhesion: AdhesionSection | None = Field(
+        default=None, description="adhesion between the bodies; without it they do not attract"
+    )
     friction: FrictionSection | None = Field(
         default=None, description="friction between the bodies; without it they slip freely"
     )
@@ -83,6 +87,17 @@ class CaseFile(Section):
             )
         return self
 
+    @model_validator(mode="after")
+    def _holds_the_load(self) -> CaseFile:
+        if self.adhesion is not None:
+            _ = self.adhesion.built
+            return self
+        try:
+            self.load.refuse_pull()
+        except ValueError as error:
+            raise ValueError(f"load.{error}") from None
+        return self
+
     @property
     def body_motion(self) -> Motion:
         """The motion of the body."""
@@ -107,12 +122,17 @@ class CaseFile(Section):
             constant_load(self.history())
             if self.temperature is not None:
                 require_constant(self.temperature.built)
+        if steady and self.adhesion is not None:
+            raise ValueError(
+                "adhesion: it is not supported in steady motion; leave this section out"
+            )
         if steady and self.friction is not None:
             raise ValueError(
                 "friction: it is not supported in steady motion; leave this section out"
             )
         grips = self.friction is not None
-        self.allowable.require_known(moving=not stands, steady=steady, grips=grips)
+        adheres = self.adhesion is not None
+        self.allowable.require_known(moving=not stands, steady=steady, grips=grips, adheres=adheres)
         if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self

@@ -18,7 +18,7 @@ _LOOKS_TOLERANCED = re.compile(r"\s*([+-]?[\d.][^±]*?)\s*(?:±|\+/-|\+-).*")
 #: Sections whose numbers may have a tolerance.
 SECTIONS = (
     *("indenter", "material", "indenter_material", "load", "motion", "temperature"),
-    *("friction", "tangential"),
+    *("friction", "tangential", "adhesion"),
 )
 
 

@@ -88,7 +88,6 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
 )
 _MEANINGS = {word: meant for words, meant in _SYNONYMS for word in words.split()}
 
-_ADHESION = "adhesion is not available: the bodies do not attract each other"
 _PLASTICITY = "plasticity is not available: the materials are linear viscoelastic"
 _HARDNESS = (
     "a hardness does not determine how a material creeps: give moduli or measured data, see "
@@ -98,6 +97,9 @@ _FRICTION = (
     "friction is a section at the top of the case: write 'friction: {coefficient: 0.3}', and the "
     "load along the surface as 'tangential: {kind: step, force_x: 1.5 N}'"
 )
+_ADHESION = (
+    "adhesion is a section at the top of the case: write 'adhesion: {work: 50 mJ/m2, range: 2 nm}'"
+)
 _HEAT = (
     "heat is not computed during a run: give the temperature of the bodies, constant or over time, "
     "by temperature: at the top of the case"
@@ -105,7 +107,6 @@ _HEAT = (
 
 #: Effects that are not modelled, by the words that ask for them.
 _NOT_AVAILABLE = {
-    **dict.fromkeys(("adhesion", "work_of_adhesion", "surface_energy", "jkr", "dmt"), _ADHESION),
     **dict.fromkeys(("plasticity", "yield_stress", "yield_strength"), _PLASTICITY),
     **dict.fromkeys(("heat", "thermal_expansion", "conductivity", "heat_flux"), _HEAT),
     "wear": "wear is not available: the shapes do not change",
@@ -127,6 +128,7 @@ _INSTEAD = {
         ("hardness", "shore", "shore_a", "shore_d", "shore_hardness", "irhd"), _HARDNESS
     ),
     **dict.fromkeys(("friction", "friction_coefficient", "mu", "cof", "traction"), _FRICTION),
+    **dict.fromkeys(("adhesion", "work_of_adhesion", "surface_energy", "jkr", "dmt"), _ADHESION),
 }
 
 

@@ -83,6 +83,10 @@ _FACTORS: dict[str, dict[str, float]] = {
         "kJ": 1000.0,
     },
     "kilogram / second ** 2": {
+        "J/m^2": 1.0,
+        "J/m²": 1.0,
+        "mJ/m^2": 0.001,
+        "mJ/m²": 0.001,
         "N/m": 1.0,
         "N/mm": 1000.0,
         "mN/m": 0.001,

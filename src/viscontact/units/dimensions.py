@@ -41,6 +41,7 @@ DIMENSIONS = {
     "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
     "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),
     "torque": Dimension("a torque", "N m", "2 N m", ("N mm", "N m", "kN m")),
+    "work of adhesion": Dimension("an energy per area", "J/m^2", "50 mJ/m2", ("mJ/m^2", "J/m^2")),
     "power": Dimension("a power", "W", "2 W", ("mW", "W", "kW")),
     "stiffness": Dimension("a stiffness", "N/m", "0.1 N/m", ("N/m", "mN/m", "kN/m")),
     "voltage": Dimension("a voltage", "V", "1 V", ("mV", "V")),

@@ -233,7 +233,6 @@ def test_bad_times_are_refused(times, message):
 @pytest.mark.parametrize(
     ("force", "message"),
     [
-        ([0, -5], "force must be zero or more, got -5.0 N: .* adhesion is not modelled"),
         ([0, math.nan], "force must be finite, got nan"),
         ([0, 1, 2], r"force must be a scalar or have one value for each of the 2 times.*\(3,\)"),
         ("10 N", "force must be numbers in N"),
@@ -280,7 +279,7 @@ def test_missing_force_is_named(make):
         make()
 
 
-@pytest.mark.parametrize("force", [-1.0, math.nan, math.inf, "10 kN", True, [1.0, 2.0]])
+@pytest.mark.parametrize("force", [math.nan, math.inf, "10 kN", True, [1.0, 2.0]])
 def test_bad_force_of_a_step_is_refused(force):
     with pytest.raises(ValueError, match="force must be"):
         step(force)
@@ -434,7 +433,7 @@ def test_harmonic_force_that_is_rounding_is_no_load():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"mean": 4.0}, "varies between -1 N and 9 N; give a mean of at least"),
+        ({"stage_stiffness": 1.0}, "stage_stiffness goes with a prescribed approach"),
         ({"cycles": 0}, "cycles must be a whole number from 1"),
         ({"cycles": 1.5}, "cycles must be a whole number from 1"),
         ({"period": 0.0}, "period must be a positive finite number"),
@@ -520,3 +519,27 @@ def test_a_jump_between_equal_slopes_remains_one():
     load = ForceHistory([0.0, 1.0, 1.0, 2.0], [1.0, 1.0, 2.0, 2.0])
     assert load.kinks.tolist() == [0.0, 1.0, 2.0]
     assert load.jumps.tolist() == [0.0, 1.0]
+
+
+def test_least_force_of_loads_that_pull():
+    history = ForceHistory([0, 1, 2], [0, -5, 3])
+    assert history.least_force == -5.0
+    assert history.force_at([0.5, 1.0]).tolist() == [-2.5, -5.0]
+    assert harmonic(mean=1.0, amplitude=3.0, period=1.0, cycles=1).least_force == -2.0
+    assert harmonic(approach=1e-6, amplitude=3e-6, period=1.0, cycles=1).least_force == 0.0
+    assert ApproachHistory([0, 1], [0, -1e-6]).least_force == 0.0
+    # Rounding of either sign is no force.
+    assert ForceHistory([0, 1, 2], [-2, 0, 1e-13]).force_at(2.0) == 0.0
+
+
+@pytest.mark.parametrize("make", [step, ramp, triangle, harmonic])
+def test_spring_of_a_stage_is_kept_and_goes_with_an_approach(make):
+    own = {step: {}, ramp: {"duration": 1.0}, triangle: {"rise": 1.0}, harmonic: SWING}[make]
+    assert make(approach=1e-6, **own).stage_stiffness is None
+    assert make(approach=1e-6, **own, stage_stiffness=0.2).stage_stiffness == 0.2
+    for bad in (0.0, -1.0, math.nan, "0.2 N/m"):
+        with pytest.raises(ValueError, match="stage_stiffness must be"):
+            make(approach=1e-6, **own, stage_stiffness=bad)
+    level = {"mean": 1.0} if make is harmonic else {"force": 1.0}
+    with pytest.raises(ValueError, match="stage_stiffness goes with a prescribed approach"):
+        make(**level, **own, stage_stiffness=0.2)

@@ -89,7 +89,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "deviation beyond all sense": (
         {"scatter": {"load.force": ("-0.05 N", "0.05 N")}},
-        "load.force: must be zero or more, got '-0.04 N'",
+        "load.force: must be zero or more without adhesion, got -40 mN",
     ),
     "scattered choice": (
         {

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.piecewise import PiecewiseHistory
-from viscontact.units.numbers import finite_array, store
+from viscontact.units.numbers import check_fields, finite_array, store
 
 #: Relative rounding of an instant, and the distance from a kink below which it is the kink.
 ROUNDING, NEAR_KINK = 2e-15, 1e-9
@@ -38,12 +38,16 @@ class ApproachHistory(PiecewiseHistory):
         Slopes along x and y, positive when they press the +x or +y end deeper; the stage is
         clamped straight if left out. None lets that tilt go free: the pressure then has no
         moment about the origin along that axis [rad].
+    stage_stiffness : float, optional
+        The approach is that of a stage on which the body hangs by a spring of this stiffness, as a
+        tip hangs on its cantilever: the body's own approach is less by force over stiffness. For
+        bodies that adhere [N/m].
 
     Raises
     ------
     ValueError
         If the arrays do not fit together, the times decrease or come three times or before
-        0, or a value is not finite.
+        0, a value is not finite, or the stiffness is not positive.
 
     Examples
     --------
@@ -62,6 +66,9 @@ class ApproachHistory(PiecewiseHistory):
     approach: Floats = field(metadata={"unit": "m"})
     tilt_x: float | Floats | None = field(metadata={"unit": "rad"})
     tilt_y: float | Floats | None = field(metadata={"unit": "rad"})
+    stage_stiffness: float | None = field(
+        default=None, metadata={"unit": "N/m", "recorded": "if given"}
+    )
 
     def __init__(
         self,
@@ -69,12 +76,15 @@ class ApproachHistory(PiecewiseHistory):
         approach: ArrayLike,
         tilt_x: ArrayLike | None = 0.0,
         tilt_y: ArrayLike | None = 0.0,
+        stage_stiffness: float | None = None,
     ) -> None:
         # Written out, so that lists are accepted and arrays are stored.
         instants = history_points.instants(times)
         values = history_points.values(ApproachHistory, "approach", approach, instants.size)
         tilts = history_points.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
-        store(self, times=instants, approach=np.broadcast_to(values, instants.shape), **tilts)
+        levels = np.broadcast_to(values, instants.shape)
+        store(self, times=instants, approach=levels, **tilts, stage_stiffness=stage_stiffness)
+        check_fields(self, "stage_stiffness")
 
     def approach_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the approach at many instants.

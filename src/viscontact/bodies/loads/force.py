@@ -30,7 +30,8 @@ class ForceHistory(PiecewiseHistory):
     times : array_like
         Instants of the points, not decreasing, none before 0, shape (n,) [s].
     force : float or array_like
-        Force at the points, positive in compression, zero or more [N].
+        Force at the points, positive in compression; negative ones pull, which needs adhesion
+        between the bodies [N].
     eccentricity_x, eccentricity_y : float or array_like
         Position of the force, a scalar or one value a point [m].
     tilt_x, tilt_y : float or array_like, optional
@@ -41,8 +42,8 @@ class ForceHistory(PiecewiseHistory):
     ------
     ValueError
         If the arrays do not fit together, the times decrease or come three times or before
-        0, a value is not finite, a force is negative, or an eccentricity is given along an
-        axis whose tilt is prescribed.
+        0, a value is not finite, or an eccentricity is given along an axis whose tilt is
+        prescribed.
 
     Examples
     --------
@@ -81,7 +82,8 @@ class ForceHistory(PiecewiseHistory):
             tilt_x=tilt_x,
             tilt_y=tilt_y,
         )
-        forces = history_points.forces(ForceHistory, force, instants.size)
+        forces = history_points.values(ForceHistory, "force", force, instants.size)
+        forces = np.broadcast_to(forces, instants.shape)
         store(self, times=instants, force=forces, **tail)
 
     def force_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
@@ -112,7 +114,8 @@ class ForceHistory(PiecewiseHistory):
         """
         instants = finite_array("times", times, "s")
         force = self._interpolate(self.force, instants, side)
-        counts = self._begun(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
+        least = NEGLIGIBLE * float(np.abs(self.force).max())
+        counts = self._begun(instants, side) & (np.abs(force) >= least)
         return np.where(counts, force, 0.0)
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
@@ -123,6 +126,11 @@ class ForceHistory(PiecewiseHistory):
     def largest_force(self) -> float:
         """Largest force of the whole history [N]."""
         return float(self.force.max())
+
+    @property
+    def least_force(self) -> float:
+        """Least force of the whole history [N]."""
+        return float(self.force.min())
 
     @property
     def largest_level(self) -> float:

@@ -18,9 +18,9 @@ from viscontact.bodies.loads.level import (
     positive_duration,
     prescribed_level,
     refuse_eccentric_approach,
+    refuse_stage,
 )
-from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, finite_array, unit_of, whole
+from viscontact.units.numbers import check_fields, finite, finite_array, unit_of, whole
 
 #: Default steps of a cycle. Linear interpolation over 1/128 of a sine has a mean error of 2e-4 of
 #: the amplitude, and the loss of a cycle an error of about 6e-4.
@@ -44,7 +44,7 @@ class HarmonicHistory(LoadHistory):
     control : {"force", "approach"}
         The prescribed quantity.
     mean, amplitude : float
-        Mean and amplitude [N or m]; a force is never negative.
+        Mean and amplitude [N or m].
     period : float
         Time of a cycle [s].
     cycles : int
@@ -55,6 +55,8 @@ class HarmonicHistory(LoadHistory):
         Position of the force [m].
     tilt_x, tilt_y : float or None
         Prescribed slopes; None where free [rad].
+    stage_stiffness : float or None
+        Stiffness of the spring between stage and body, as in `ApproachHistory` [N/m].
     """
 
     control: Control
@@ -67,6 +69,12 @@ class HarmonicHistory(LoadHistory):
     eccentricity_y: float = field(default=0.0, metadata={"unit": "m"})
     tilt_x: float | None = field(default=None, metadata={"unit": "rad"})
     tilt_y: float | None = field(default=None, metadata={"unit": "rad"})
+    stage_stiffness: float | None = field(
+        default=None, metadata={"unit": "N/m", "recorded": "if given"}
+    )
+
+    def __post_init__(self) -> None:
+        check_fields(self, "stage_stiffness")
 
     @property
     def end(self) -> float:
@@ -82,9 +90,18 @@ class HarmonicHistory(LoadHistory):
         level = self.mean + self.amplitude * np.sin(angle)
         started = instants >= 0 if history_points.side_of_jump(side) == "right" else instants > 0
         if self.control == "force":
-            counts = started & (level >= NEGLIGIBLE * self.largest_level)
+            counts = started & (np.abs(level) >= NEGLIGIBLE * self._largest_size)
             return np.where(counts, level, 0.0)
         return np.where(started, level, min(self._first_level, 0.0))
+
+    @property
+    def least_force(self) -> float:
+        """Least force of the whole history [N]."""
+        return self.mean - abs(self.amplitude) if self.control == "force" else 0.0
+
+    @property
+    def _largest_size(self) -> float:
+        return abs(self.mean) + abs(self.amplitude)
 
     @property
     def _first_level(self) -> float:
@@ -103,7 +120,9 @@ class HarmonicHistory(LoadHistory):
     @property
     def jumps(self) -> Floats:
         """Time 0, unless the level starts at zero [s]."""
-        return np.zeros(1) if self.level_at(0.0) > 0 else np.zeros(0)
+        starts = self.level_at(0.0)
+        pulls = self.control == "force" and starts < 0
+        return np.zeros(1) if starts > 0 or pulls else np.zeros(0)
 
     @property
     def longest_step(self) -> float:
@@ -129,13 +148,14 @@ def harmonic(  # noqa: PLR0913
     eccentricity_y: float = 0.0,
     tilt_x: float | None = None,
     tilt_y: float | None = None,
+    stage_stiffness: float | None = None,
 ) -> HarmonicHistory:
     """Return a force or an approach that oscillates about a mean, then stays constant.
 
     Parameters
     ----------
     mean : float
-        Mean force, not less than the amplitude [N].
+        Mean force; a force that pulls at times needs adhesion between the bodies [N].
     amplitude : float
         Amplitude of the force [N] or, with `approach`, of the approach [m].
     period : float
@@ -146,7 +166,7 @@ def harmonic(  # noqa: PLR0913
         The level is mean + amplitude sin(2 π t/period + phase) [rad].
     approach : float
         Instead of the mean force: the mean approach [m].
-    eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
+    eccentricity_x, eccentricity_y, tilt_x, tilt_y, stage_stiffness : float, optional
         As in `step`.
 
     Returns
@@ -159,7 +179,7 @@ def harmonic(  # noqa: PLR0913
     ------
     ValueError
         If not exactly one of mean and approach is given, something else is missing or not
-        finite, a force would be negative, or a tilt and an eccentricity contradict each other.
+        finite, or a tilt and an eccentricity contradict each other.
 
     Examples
     --------
@@ -169,12 +189,8 @@ def harmonic(  # noqa: PLR0913
     """
     control, middle = prescribed_level("harmonic", mean, approach, force_is="mean")
     deviation = _number("amplitude", amplitude, control)
-    if control == "force" and abs(deviation) > middle:
-        raise ValueError(
-            "harmonic: the force must never be negative, but varies between "
-            f"{format_quantity(middle - deviation, 'N', 9)} and "
-            f"{format_quantity(middle + deviation, 'N', 9)}; give a mean of at least the amplitude"
-        )
+    if control == "force":
+        refuse_stage(stage_stiffness)
     turns = whole("harmonic: cycles", cycles, 1, MOST_CYCLES)
     tail = _scalar_tail(control, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
     return HarmonicHistory(
@@ -185,6 +201,7 @@ def harmonic(  # noqa: PLR0913
         cycles=turns,
         phase=_number("phase", phase),
         **tail,
+        stage_stiffness=stage_stiffness,
     )
 
 

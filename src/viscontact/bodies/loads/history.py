@@ -85,6 +85,9 @@ class LoadHistory(Displayable, ABC):
     #: Prescribed slopes, constant or at each point; None where the tilt is free [rad].
     tilt_x: float | Floats | None = None
     tilt_y: float | Floats | None = None
+    #: Stiffness of the spring between a stage at the prescribed approach and the body [N/m]; None
+    #: of a body that is held itself.
+    stage_stiffness: float | None = None
 
     @property
     def unit(self) -> str:
@@ -138,6 +141,11 @@ class LoadHistory(Displayable, ABC):
     def curved_until(self) -> float:
         """Time up to which steps are at most `longest_step` [s]."""
         return float(self.kinks[-1])
+
+    @property
+    def least_force(self) -> float:
+        """Least prescribed force [N]; 0 or more where none pulls."""
+        return 0.0
 
     @property
     def load_cycles(self) -> tuple[Cycle, ...]:

@@ -55,17 +55,6 @@ def values(owner: type, name: str, given: ArrayLike | None, count: int) -> float
     return float(array) if array.ndim == 0 else array
 
 
-def forces(owner: type, given: ArrayLike, count: int) -> Floats:
-    """Return the force at each point of a history, none negative, shape (count,) [N]."""
-    force = np.broadcast_to(values(owner, "force", given, count), (count,))
-    for lowest in force[force < 0][:1]:
-        raise ValueError(
-            f"force must be zero or more, got {lowest} N: a negative force pulls, and adhesion "
-            "is not modelled"
-        )
-    return force
-
-
 def refuse_both(
     axis: str,
     eccentricity: float | Floats | None,

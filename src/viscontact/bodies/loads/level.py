@@ -39,3 +39,12 @@ def refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> N
                 f"{name} goes with a force, got {format_quantity(value, 'm', 9)} with an approach: "
                 "no force is prescribed that could act there; leave it out, or prescribe the tilt"
             )
+
+
+def refuse_stage(stage_stiffness: object) -> None:
+    """Raise ValueError for a spring of a stage under a prescribed force."""
+    if stage_stiffness is not None:
+        raise ValueError(
+            "stage_stiffness goes with a prescribed approach: a force acts on the body itself; "
+            "leave it out, or prescribe the approach of the stage"
+        )

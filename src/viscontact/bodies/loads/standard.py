@@ -11,6 +11,7 @@ from viscontact.bodies.loads.level import (
     positive_duration,
     prescribed_level,
     refuse_eccentric_approach,
+    refuse_stage,
 )
 
 
@@ -22,19 +23,23 @@ def step(
     eccentricity_y: float = 0.0,
     tilt_x: float | None = None,
     tilt_y: float | None = None,
+    stage_stiffness: float | None = None,
 ) -> ForceHistory | ApproachHistory:
     """Return a force or an approach applied suddenly at time 0, then held.
 
     Parameters
     ----------
     force : float
-        The force, zero or more [N].
+        The force; a negative one pulls, which needs adhesion between the bodies [N].
     approach : float
         Instead of the force: the approach, positive when the bodies come closer [m].
     eccentricity_x, eccentricity_y : float, optional
         Position of the force [m]; not with an approach.
     tilt_x, tilt_y : float, optional
         Prescribed slopes; free of moment where left out [rad].
+    stage_stiffness : float, optional
+        With an approach: that of a stage on which the body hangs by a spring, as in
+        `ApproachHistory` [N/m].
 
     Returns
     -------
@@ -54,10 +59,11 @@ def step(
     1e-05
     """
     control, held = prescribed_level("step", force, approach)
-    return _history(control, [0.0], [held], eccentricity_x, eccentricity_y, tilt_x, tilt_y)
+    tail = eccentricity_x, eccentricity_y, tilt_x, tilt_y
+    return _history(control, [0.0], [held], *tail, stage_stiffness)
 
 
-def ramp(
+def ramp(  # noqa: PLR0913
     force: float | None = None,
     duration: float | None = None,
     *,
@@ -66,18 +72,19 @@ def ramp(
     eccentricity_y: float = 0.0,
     tilt_x: float | None = None,
     tilt_y: float | None = None,
+    stage_stiffness: float | None = None,
 ) -> ForceHistory | ApproachHistory:
     """Return a force or an approach that grows linearly from 0 at time 0, then is held.
 
     Parameters
     ----------
     force : float
-        The force at the end of the ramp, zero or more [N].
+        The force at the end of the ramp, as in `step` [N].
     duration : float
         Duration of the ramp, positive [s].
     approach : float
         Instead of the force: the approach at the end of the ramp [m].
-    eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
+    eccentricity_x, eccentricity_y, tilt_x, tilt_y, stage_stiffness : float, optional
         As in `step`.
 
     Returns
@@ -98,7 +105,8 @@ def ramp(
     control, end = prescribed_level("ramp", force, approach)
     duration = positive_duration("ramp: duration", duration)
     times, levels = [0.0, duration], [0.0, end]
-    return _history(control, times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
+    tail = eccentricity_x, eccentricity_y, tilt_x, tilt_y
+    return _history(control, times, levels, *tail, stage_stiffness)
 
 
 def triangle(  # noqa: PLR0913
@@ -111,20 +119,21 @@ def triangle(  # noqa: PLR0913
     eccentricity_y: float = 0.0,
     tilt_x: float | None = None,
     tilt_y: float | None = None,
+    stage_stiffness: float | None = None,
 ) -> ForceHistory | ApproachHistory:
     """Return a force or an approach that grows linearly from 0 at time 0 and falls back to 0.
 
     Parameters
     ----------
     force : float
-        The force at the peak, zero or more [N].
+        The force at the peak, as in `step` [N].
     rise : float
         Duration of loading, positive [s].
     fall : float, optional
         Duration of unloading, positive; equal to `rise` if left out [s].
     approach : float
         Instead of the force: the approach at the peak [m].
-    eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
+    eccentricity_x, eccentricity_y, tilt_x, tilt_y, stage_stiffness : float, optional
         As in `step`.
 
     Returns
@@ -146,10 +155,11 @@ def triangle(  # noqa: PLR0913
     rise = positive_duration("triangle: rise", rise)
     fall = rise if fall is None else positive_duration("triangle: fall", fall)
     times, levels = [0.0, rise, rise + fall], [0.0, peak, 0.0]
-    return _history(control, times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
+    tail = eccentricity_x, eccentricity_y, tilt_x, tilt_y
+    return _history(control, times, levels, *tail, stage_stiffness)
 
 
-def _history(
+def _history(  # noqa: PLR0913
     control: Control,
     times: Sequence[float],
     levels: Sequence[float],
@@ -157,8 +167,10 @@ def _history(
     eccentricity_y: float,
     tilt_x: float | None,
     tilt_y: float | None,
+    stage_stiffness: float | None,
 ) -> ForceHistory | ApproachHistory:
     if control == "force":
+        refuse_stage(stage_stiffness)
         return ForceHistory(times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
     refuse_eccentric_approach(eccentricity_x, eccentricity_y)
-    return ApproachHistory(times, levels, tilt_x, tilt_y)
+    return ApproachHistory(times, levels, tilt_x, tilt_y, stage_stiffness)

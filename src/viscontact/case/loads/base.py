@@ -13,12 +13,14 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.levels import APPROACH_EXAMPLE, Tilt
 from viscontact.case.quantities import (
-    Force,
+    AnyForce,
     Offset,
     Pressure,
     Section,
+    StageStiffness,
 )
 from viscontact.units.dimensions import DIMENSIONS
+from viscontact.units.formatting import format_quantity
 
 #: Example of a mean pressure; that of a modulus would be too large.
 PRESSURE_EXAMPLE = "2 MPa"
@@ -33,6 +35,13 @@ class Load(Section):
     eccentricity_y: Offset = Field(default=0.0, description="position of the force along y")
     tilt_x: Tilt = Field(default=None, description=_FREE.format("x"))
     tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
+
+    stage_stiffness: StageStiffness | None = Field(
+        default=None,
+        description="with adhesion: the approach is that of a stage on which the body hangs by a "
+        "spring of this stiffness, as on a cantilever",
+        examples=["0.2 N/m"],
+    )
 
     @abstractmethod
     def build(self, area: float = 1.0) -> LoadHistory:
@@ -53,6 +62,21 @@ class Load(Section):
         """True if a mean pressure is prescribed, which needs an area."""
         return getattr(self, "mean_pressure", None) is not None
 
+    def refuse_pull(self) -> None:
+        """Raise ValueError, with the key, for a force that pulls, which needs adhesion."""
+        least = self.built.least_force
+        if least < 0:
+            raise ValueError(
+                f"{self._force_key}: must be zero or more without adhesion, got "
+                f"{format_quantity(least, 'N', 6)}; a negative force pulls: give e.g. 'adhesion: "
+                "{work: 50 mJ/m2, range: 2 nm}'"
+            )
+
+    @property
+    def _force_key(self) -> str:
+        """Key of the force that pulls."""
+        return "force"
+
     @property
     def _tail(self) -> dict[str, Any]:
         """Arguments that the file gives; the constructor has defaults for the others."""
@@ -69,7 +93,7 @@ class Load(Section):
 class Controlled(Load):
     """History whose level is a force or an approach."""
 
-    force: Force | None = Field(default=None, description="prescribed force")
+    force: AnyForce | None = Field(default=None, description="prescribed force")
     approach: Offset | None = Field(
         default=None,
         description="prescribed approach, in place of the force",

@@ -10,12 +10,14 @@ from pydantic import Field
 
 from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.bodies.loads.history import Control
+from viscontact.bodies.loads.history_points import TILTS
+from viscontact.bodies.loads.level import refuse_stage
 from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
 from viscontact.case.loads.course import SentenceError
 from viscontact.case.loads.levels import ForceOrApproach, Level
-from viscontact.case.loads.sentence_history import course_of
+from viscontact.case.loads.sentence_history import LoadPoints, course_of
 from viscontact.case.loads.sentences import Sentences
 from viscontact.case.ordered_times import refuse_decrease
 from viscontact.case.quantities import (
@@ -23,7 +25,6 @@ from viscontact.case.quantities import (
     Pressure,
 )
 from viscontact.tables import Table, read_table
-from viscontact.units.formatting import format_quantity
 
 _COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
@@ -84,13 +85,6 @@ class History(Load):
             raise ValueError("points is empty; write e.g. '[[0 s, 0 N], [1 s, 10 kN]]'")
         times, levels = zip(*self.points, strict=True)
         control = _common_control(levels)
-        for place, level in enumerate(levels, start=1):
-            if control == "force" and level.value < 0:
-                raise ValueError(
-                    f"points[{place}]: a force must be zero or more, got "
-                    f"{format_quantity(level.value, 'N', 6)}: a negative force pulls, and adhesion "
-                    "is not modelled"
-                )
         return _history(control, times, [level.value for level in levels], self._tail)
 
     def _from_pressures(self, area: float) -> LoadHistory:
@@ -99,17 +93,34 @@ class History(Load):
         times, pressures = zip(*self.mean_pressure, strict=True)
         return _history("force", times, [each * area for each in pressures], self._tail)
 
+    @property
+    def _force_key(self) -> str:
+        """Key of the force: the first point that pulls, or the table."""
+        for place, (_, level) in enumerate(self.points or (), start=1):
+            if level.value < 0:
+                return f"points[{place}]"
+        return "file"
+
+    def refuse_pull(self) -> None:
+        """Raise ValueError, with the key, for a force that pulls, which needs adhesion."""
+        if self.sentences is not None:
+            self._course(may_pull=False)
+        else:
+            super().refuse_pull()
+
     def _from_sentences(self) -> LoadHistory:
+        return _history(*self._course(may_pull=True), self._tail)
+
+    def _course(self, *, may_pull: bool) -> LoadPoints:
         sentences = [sentence for entry in self.sentences or () for sentence in entry]
         try:
-            course = course_of(sentences)
+            return course_of(sentences, may_pull=may_pull)
         except SentenceError as error:
             # A text has no entries, so the message names the key of the section.
             key = ("sentences", error.entry - 1)
             raise ValueError(f"{dotted(key)}: {error}") from error
         except ValueError as error:
             raise ValueError(f"sentences: {error}") from error
-        return _history(*course, self._tail)
 
     def _from_file(self, path: Path) -> LoadHistory:
         columns = _read_table(path, self.columns)
@@ -136,8 +147,10 @@ def _history(
     control: Control, times: Sequence[float], levels: Sequence[float], tail: dict[str, Any]
 ) -> LoadHistory:
     if control == "force":
-        return ForceHistory(times, levels, **tail)
-    tilts = {name: tail[name] for name in ("tilt_x", "tilt_y") if name in tail}
+        refuse_stage(tail.get("stage_stiffness"))
+        own = {name: given for name, given in tail.items() if name != "stage_stiffness"}
+        return ForceHistory(times, levels, **own)
+    tilts = {name: tail[name] for name in (*TILTS, "stage_stiffness") if name in tail}
     for name in tail.keys() - tilts.keys():
         if any(tail[name] if isinstance(tail[name], list) else [tail[name]]):
             raise ValueError(

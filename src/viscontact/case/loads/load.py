@@ -17,9 +17,9 @@ from viscontact.case.loads.history import History
 from viscontact.case.loads.levels import APPROACH_EXAMPLE, ForceOrApproach
 from viscontact.case.quantities import (
     Angle,
+    AnyForce,
     CycleCount,
     Duration,
-    Force,
     Offset,
 )
 from viscontact.case.section_choice import ChosenBy
@@ -71,7 +71,7 @@ class Harmonic(Load):
     """A harmonic force or approach, mean + amplitude sin(2 pi t/period + phase)."""
 
     kind: Literal["harmonic"]
-    mean: Force | None = Field(default=None, description="mean force")
+    mean: AnyForce | None = Field(default=None, description="mean force")
     approach: Offset | None = Field(
         default=None,
         description="mean approach, in place of the mean force",
@@ -81,6 +81,11 @@ class Harmonic(Load):
     period: Duration = Field(description="time of a cycle", examples=["1 s"])
     cycles: CycleCount = Field(description="number of cycles; then the level is held")
     phase: Angle = Field(default=0.0, description="at time 0")
+
+    @property
+    def _force_key(self) -> str:
+        """Key of the force that pulls: what the amplitude takes off the mean."""
+        return "mean"
 
     def build(self, area: float = 1.0) -> LoadHistory:
         """Return the harmonic load."""

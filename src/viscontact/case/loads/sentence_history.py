@@ -32,9 +32,12 @@ class LoadPoints(NamedTuple):
     levels: list[float]
 
 
-def course_of(sentences: Sequence[Sentence]) -> LoadPoints:
-    """Return the history that sentences describe, from time 0 and level 0."""
-    way = _LoadWay(_control(sentences))
+def course_of(sentences: Sequence[Sentence], *, may_pull: bool = True) -> LoadPoints:
+    """Return the history that sentences describe, from time 0 and level 0.
+
+    SentenceError for a force that pulls, if it may not.
+    """
+    way = _LoadWay(_control(sentences), may_pull=may_pull)
     for sentence, move in moves(sentences):
         way.follow(sentence, move)
     return LoadPoints(way.control, *way.points)
@@ -83,9 +86,10 @@ def _control(sentences: Sequence[Sentence]) -> Control:
 class _LoadWay(Way):
     """Points of a force or of an approach."""
 
-    def __init__(self, control: Control) -> None:
+    def __init__(self, control: Control, *, may_pull: bool) -> None:
         super().__init__()
         self.control: Control = control
+        self._may_pull = may_pull
 
     def follow(self, sentence: Sentence, move: Reading) -> None:
         """Add the points of a sentence."""
@@ -100,21 +104,21 @@ class _LoadWay(Way):
 
     def _add_cycles(self, sentence: Sentence, amplitude: Level, period: float, cycles: int) -> None:
         middle, swing = self.levels[-1], exact(amplitude.value)
-        self._refuse_pull(sentence, middle - abs(swing))
         if cycles * STEPS_PER_CYCLE > MOST_POINTS:
             refuse(sentence, f"that makes more than {MOST_POINTS} points; kind: harmonic has none")
+        self._refuse_pull(sentence, middle - abs(swing))
         part = exact(period) / STEPS_PER_CYCLE
         for _ in range(cycles):
             for sine in _SINES:
                 self.add_ramp(sentence, middle + swing * sine, part)
 
     def _refuse_pull(self, sentence: Sentence, level: Fraction) -> None:
-        if self.control == "force" and level < 0:
+        if self.control == "force" and level < 0 and not self._may_pull:
             lowest = format_quantity(float(level), "N")
             refuse(
                 sentence,
-                f"the force would fall to {lowest}: a negative force pulls, and adhesion is not "
-                "modelled",
+                f"the force would fall to {lowest}: a negative force pulls, which needs adhesion; "
+                "give e.g. 'adhesion: {work: 50 mJ/m2, range: 2 nm}'",
             )
 
 

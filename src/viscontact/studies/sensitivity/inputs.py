@@ -17,7 +17,7 @@ from viscontact.units.parsing import split_quantity
 #: Sections of a case whose numbers are inputs, and one whose lists are columns of a table.
 SECTIONS = (
     *("indenter", "material", "indenter_material", "load", "friction", "tangential"),
-    *("motion", "temperature"),
+    *("adhesion", "motion", "temperature"),
 )
 TABLE_SECTION = "tangential"
 #: Sections whose numbers belong to the computation, not to the contact.
