@@ -14,6 +14,7 @@ from . import verify as verify
 from .backend.errors import AccuracyWarning as AccuracyWarning
 from .backend.errors import ConvergenceError as ConvergenceError
 from .backend.errors import DomainError as DomainError
+from .bodies.adhesion import Adhesion as Adhesion
 from .bodies.friction import Friction as Friction
 from .bodies.grid import AutomaticGrid as AutomaticGrid
 from .bodies.grid import Grid as Grid

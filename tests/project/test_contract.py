@@ -306,13 +306,18 @@ def test_lengths_forces_and_times_refuse_what_is_no_positive_number(value: Any) 
     for make in (
         lambda: vc.Sphere(value),
         lambda: vc.Cone(value),
-        lambda: vc.step(value),
         lambda: vc.ramp(1.0, value),
         lambda: vc.uniform_times(value, 2),
         lambda: vc.uniform_times(1.0, value),
     ):
         with pytest.raises(ValueError, match=r"must|missing"):
             make()
+
+
+@pytest.mark.parametrize("value", [True, "1", None, [1.0], 1j, math.nan, math.inf, 10**400])
+def test_forces_refuse_what_is_no_number(value: Any) -> None:
+    with pytest.raises(ValueError, match=r"must|missing"):
+        vc.step(value)
 
 
 def test_auto_grid_holds_the_contact_and_follows_its_tolerance() -> None:
@@ -361,8 +366,8 @@ def _check_variables(ds: xr.Dataset, fields: type[np.floating] = np.float64) -> 
     assert ds.in_contact.attrs["flag_values"].tolist() == [0, 1]
     assert ds.in_contact.attrs["flag_meanings"] == "open in_contact"
     np.testing.assert_array_equal(ds.in_contact, ds.pressure > 0)  # without adhesion
-    assert ds.outcome.attrs["flag_values"].tolist() == [0, 1, 2]
-    assert ds.outcome.attrs["flag_meanings"] == "converged no_contact not_converged"
+    assert ds.outcome.attrs["flag_values"].tolist() == [0, 1, 2, 3]
+    assert ds.outcome.attrs["flag_meanings"] == "converged no_contact not_converged pulled_off"
 
 
 def test_result_has_every_variable_with_its_dimensions_unit_and_long_name(ds: xr.Dataset) -> None:
@@ -721,7 +726,7 @@ def test_file_is_cf_netcdf_for_others_too(ds: xr.Dataset, tmp_path: Path) -> Non
         assert file["contact_area"].units == "m2"
         assert file["time"].dtype == np.float64
         assert file["time"].units == "s"
-        assert file["outcome"].flag_meanings == "converged no_contact not_converged"
+        assert file["outcome"].flag_meanings == "converged no_contact not_converged pulled_off"
         np.testing.assert_array_equal(file["pressure"][:], ds.pressure)
 
 

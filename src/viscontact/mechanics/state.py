@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from viscontact.bodies.grid import Grid
 class Outcome(IntEnum):
     """Outcome of the contact solver at an instant.
 
-    ``CONVERGED`` (0), ``NO_CONTACT`` (1) or ``NOT_CONVERGED`` (2): tolerance not reached.
+    ``CONVERGED`` (0), ``NO_CONTACT`` (1), ``NOT_CONVERGED`` (2): tolerance not reached, or
+    ``PULLED_OFF`` (3): a given force has pulled adhering bodies off each other, which ends the run.
 
     Examples
     --------
@@ -26,6 +28,7 @@ class Outcome(IntEnum):
     CONVERGED = 0
     NO_CONTACT = 1
     NOT_CONVERGED = 2
+    PULLED_OFF = 3
 
 
 #: Part of a state that only moving contacts have. Others are named by their scalar.
@@ -39,10 +42,33 @@ FRICTION = "friction"
 
 #: Part of a state of a run whose case names a fluid that leaks.
 LEAKAGE = "leakage"
+#: Parts of a state that only contacts of bodies that adhere have, and those on a stage.
+ADHESION, STAGE = "adhesion", "stage"
 
 #: Fields of a state over the cells, and those of a contact under friction.
 FIELD_NAMES = ("pressure", "gap", "displacement", "in_contact")
 FRICTION_FIELDS = ("traction_x", "traction_y", "slip_x", "slip_y", "slip_state", "friction_work")
+
+
+#: Beginning or end of a contact of bodies that adhere.
+EventKind = Literal["jump_in", "pull_off"]
+
+
+class ContactEvent(NamedTuple):
+    """Instant at which bodies that adhere come into contact or lose it."""
+
+    kind: EventKind
+    time: float  # [s]
+    force: tuple[float, float]  # before and after it [N]
+    approach: tuple[float, float]  # before and after it [m]
+    pull: float  # largest pull of the contact that ends [N]; NaN where one begins
+    pull_time: float  # when it was [s]
+
+
+def as_event(plain: Sequence[Any]) -> ContactEvent:
+    """Return an event of plain data."""
+    kind, time, forces, approaches, pull, pull_time = plain
+    return ContactEvent(kind, time, tuple(forces), tuple(approaches), pull, pull_time)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +130,8 @@ class ContactState:
         Outcome of the solver.
     warnings : tuple of str
         Accuracy warnings that occur first at this instant.
+    events : tuple of ContactEvent
+        Jumps into contact and pull-offs of bodies that adhere, since the state before.
     position_x, position_y : float or None
         Position of the axis of a moving body [m]. These and the following are None if no motion
         is prescribed.
@@ -168,6 +196,18 @@ class ContactState:
     transmissivity_error, leak_rate_error : float or None
         Their errors.
 
+    least_pressure : float or None
+        Least pressure, negative in tension [Pa]; None, like the next three, without adhesion.
+    tensile_area : float or None
+        Area outside the contact that pulls with more than a hundredth of the strength [m²].
+    adhesion_energy : float or None
+        Work that separating the surfaces from their gap would take [J].
+    stability : float or None
+        Factor by which a small change of the attraction grows, below 1 of a stable contact [-];
+        NaN where it was not computed.
+    stage_position : float or None
+        Position of the stage on whose spring the body hangs [m]; None without one.
+
     Examples
     --------
     >>> import viscontact as vc
@@ -205,6 +245,7 @@ class ContactState:
     cells_across: int
     outcome: Outcome
     warnings: tuple[str, ...] = ()
+    events: tuple[ContactEvent, ...] = ()
     position_x: float | None = None
     position_y: float | None = None
     resistance_x: float | None = None
@@ -242,6 +283,11 @@ class ContactState:
     leak_rate: float | None = None
     leak_rate_error: float | None = None
     critical_gap: float | None = None
+    least_pressure: float | None = None
+    tensile_area: float | None = None
+    adhesion_energy: float | None = None
+    stability: float | None = None
+    stage_position: float | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:
@@ -259,8 +305,10 @@ class ContactState:
         moving = {MOTION} if self.moving or self.speed is not None else set()
         gripping = set() if self.traction_x is None else {FRICTION}
         leaking = set() if self.leak_rate is None else {LEAKAGE}
+        adhering = set() if self.least_pressure is None else {ADHESION}
+        staged = set() if self.stage_position is None else {STAGE}
         clocked = {name for name in OF_CLOCKS if getattr(self, name) is not None}
-        return frozenset(moving | gripping | leaking | clocked)
+        return frozenset(moving | gripping | leaking | adhering | staged | clocked)
 
     @property
     def field_names(self) -> tuple[str, ...]:

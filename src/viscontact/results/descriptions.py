@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.bodies import indenters, laws, loads
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.materials.layers import Layer, Layered
@@ -22,7 +23,7 @@ from viscontact.units.axis_flags import AxisFlags
 
 _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
 
-_OTHERS = (Material, MeasuredRange, Layer, Layered, Grid, AutomaticGrid, Friction)
+_OTHERS = (Material, MeasuredRange, Layer, Layered, Grid, AutomaticGrid, Friction, Adhesion)
 
 #: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
 STORED_CLASSES: dict[str, Any] = {

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import FRICTION, LEAKAGE, MOTION, Outcome
+from viscontact.mechanics.state import ADHESION, FRICTION, LEAKAGE, MOTION, STAGE, Outcome
 
 
 class Place(Flag):
@@ -152,6 +152,17 @@ def _leak(
 ) -> Variable:
     """A scalar of the flow through the gap, whose error is found with it."""
     return Variable(units, long_name, label=label, places=places, rank=rank, of=LEAKAGE)
+
+
+#: Places of the scalars of bodies that adhere.
+_ADHERING = Place.CARD | Place.RESPONSE
+
+
+def _sticking(
+    units: str, long_name: str, label: str, rank: int, places: Place = _ADHERING
+) -> Variable:
+    """A scalar of a contact of bodies that adhere."""
+    return _scalar(units, long_name, label, rank, places, of=ADHESION)
 
 
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
@@ -307,6 +318,28 @@ SCALARS = {
         rank=26,
         of="thickening",
     ),
+    "least_pressure": _sticking(
+        "Pa", "least pressure, negative in tension", "Least pressure", 41, _ADHERING | Place.FIGURE
+    ),
+    "tensile_area": _sticking("m2", "area outside the contact that pulls", "Cohesive zone", 42),
+    "adhesion_energy": _sticking(
+        "J", "work that separating the surfaces would take", "Adhesion energy", 43
+    ),
+    "stability": Variable(
+        "1",
+        "factor by which a small change of the attraction grows; below 1 if stable",
+        label="Stability",
+        rank=44,
+        of=ADHESION,
+    ),
+    "stage_position": Variable(
+        "m",
+        "position of the stage on whose spring the body hangs",
+        label="Stage position",
+        places=Place.LOAD,
+        rank=45,
+        of=STAGE,
+    ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
@@ -370,7 +403,11 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
-def scalars_with_error(parts: Container[str] = (MOTION, FRICTION), over: str = "time") -> list[str]:
+#: Parts of all results whose scalars have errors.
+ALL_PARTS = (MOTION, FRICTION, ADHESION)
+
+
+def scalars_with_error(parts: Container[str] = ALL_PARTS, over: str = "time") -> list[str]:
     """Names of the scalars whose error is estimated, of contacts with some parts."""
     found = scalars_of(parts, over)
     return [name for name, variable in found.items() if variable.has_error]

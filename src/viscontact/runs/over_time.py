@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import ContactEvent, ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.run_axis import TIME
@@ -20,7 +20,11 @@ from viscontact.runs.run_memory import run_memory
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.simulation.transient.march import March
-from viscontact.simulation.transient.provenance import describe_problem, run_attributes
+from viscontact.simulation.transient.provenance import (
+    contact_event_attributes,
+    describe_problem,
+    run_attributes,
+)
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
@@ -84,6 +88,8 @@ class OverTime(Analysis[RunSetup, March]):
 
     def part(self, states: March, state: ContactState) -> float:
         """Finished part of the instants, or of the time where steps are adaptive."""
+        if state.outcome is Outcome.PULLED_OFF:
+            return 1.0
         if self.contact.adaptive is None:
             return min(states.done / len(self.places), 1.0)
         end = self.contact.end
@@ -91,7 +97,7 @@ class OverTime(Analysis[RunSetup, March]):
 
     def is_last(self, state: ContactState) -> bool:
         """True for the state at the end."""
-        return state.time >= self.contact.end
+        return state.time >= self.contact.end or state.outcome is Outcome.PULLED_OFF
 
     def error_bars(
         self,
@@ -119,8 +125,14 @@ class OverTime(Analysis[RunSetup, March]):
         return run_attributes(self.setup)
 
     def attributes_after(self, states: Sequence[ContactState]) -> dict[str, Any]:
-        """Enlargements of the grid."""
-        return {"grid_enlarged": "\n".join(enlargements(self.grid, states))}
+        """Enlargements of the grid, and events of bodies that adhere."""
+        events = [event for state in states for event in state.events]
+        found = {"grid_enlarged": "\n".join(enlargements(self.grid, states))}
+        return found | self.event_attributes(events)
+
+    def event_attributes(self, events: Sequence[ContactEvent]) -> dict[str, Any]:
+        """Attributes of the events of bodies that adhere; none of others."""
+        return {} if self.contact.adhesion is None else contact_event_attributes(events)
 
     @property
     def longest_creep(self) -> float:

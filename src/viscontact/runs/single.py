@@ -9,6 +9,7 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
@@ -46,6 +47,7 @@ def simulate(  # noqa: PLR0913
     temperature: TemperatureHistory | float | None = None,
     friction: Friction | float | None = None,
     tangential: TangentialLoad | None = None,
+    adhesion: Adhesion | None = None,
 ) -> xr.Dataset:
     """Simulate an indenter pressed on a creeping half-space, and return its contact over time.
 
@@ -93,6 +95,10 @@ def simulate(  # noqa: PLR0913
         frictionless when left out.
     tangential : TangentialHistory or TangentialHarmonic, optional
         Load along the surface: forces and a torque, or shifts and a rotation.
+    adhesion : Adhesion, optional
+        Work of adhesion between the bodies, its range and law. The run then chooses its steps by
+        the change of the force, also between given times. The bodies do not attract each other when
+        left out.
 
     Returns
     -------
@@ -150,6 +156,7 @@ def simulate(  # noqa: PLR0913
         temperature=temperature,
         friction=friction,
         tangential=tangential,
+        adhesion=adhesion,
     )
     problem = carried_out(problem, threads)
     if text := unusual_radius(indenter):

@@ -104,7 +104,7 @@ def test_result_describes_itself(path: Path) -> None:
         for name in (*scalars_of(), *FIELDS, *LINES, "time", "x", "y", "field_time"):
             assert ds[name].attrs["units"]
             assert ds[name].attrs["long_name"]
-        assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged"
+        assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged pulled_off"
         assert ds["outcome"].attrs["flag_values"].tolist() == [0, 1, 2]
         assert ds.attrs["complete"] == 1
         assert ds.attrs["title"] == "µ"

@@ -85,7 +85,7 @@ def early_end(ds: Result) -> str:
         made = _progress_made(ds)
     except (KeyError, IndexError, TypeError, ValueError):  # not written by a run
         return ""
-    if not made:
+    if not made or int(ds["outcome"][-1]) == Outcome.PULLED_OFF:  # which ends a run
         return ""
     directory = _run_directory(ds)
     if directory is not None and is_locked(directory):

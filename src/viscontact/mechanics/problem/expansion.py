@@ -150,6 +150,11 @@ class ThickenedLoad(LoadHistory):
         levels = [self.load.level_of(point) for point in points]
         return np.array(levels).reshape(instants.shape)
 
+    @property
+    def least_force(self) -> float:
+        """Least prescribed force [N]."""
+        return self.load.least_force
+
     @cached_property
     def largest_level(self) -> float:
         """Largest level of the whole history."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
@@ -39,8 +40,12 @@ from viscontact.mechanics.problem.surface import (
     surface_of,
     together,
 )
-from viscontact.mechanics.state import FRICTION, MOTION, OF_CLOCKS
-from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
+from viscontact.mechanics.state import ADHESION, FRICTION, MOTION, OF_CLOCKS, STAGE
+from viscontact.mechanics.time_integration.adaptive_steps import (
+    MIN_STEP_FRACTION,
+    AdaptiveSteps,
+    estimated_steps,
+)
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, TimeStep, plan_steps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
@@ -56,6 +61,10 @@ SOLVER_ERROR_FACTOR = 3.0
 
 #: Names of the materials of two bodies that both deform.
 BODIES = ("half-space material", "indenter material")
+
+#: Error of the time steps between given times of an adhesive contact [-], and the shortest one of
+#: them, over the run: a jump takes one.
+ADHESIVE_STEP_TOLERANCE, SHORTEST_ADHESIVE_STEP = 1e-3, 1e-6
 
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
@@ -112,6 +121,7 @@ class Problem:
     temperature: TemperatureHistory | None = None  # of all bodies; None: that of their laws
     friction: Friction | None = None
     tangential: TangentialLoad | None = None  # along the surface, under friction
+    adhesion: Adhesion | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.indenter, MeasuredSurface) or is_topography(self.indenter):
@@ -127,6 +137,7 @@ class Problem:
             ("temperature", (TemperatureHistory,), True),
             ("friction", (Friction,), True),
             ("tangential", (TangentialLoad,), True),
+            ("adhesion", (Adhesion,), True),
         ):
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
@@ -205,7 +216,9 @@ class Problem:
         """Parts of the scalars of its states that only some problems have."""
         moving = () if self.motion.stands else (MOTION,)
         gripping = () if self.friction is None else (FRICTION,)
-        return frozenset([*moving, *gripping, *self.clock_scalars(0.0)])
+        adhering = () if self.adhesion is None else (ADHESION,)
+        staged = () if self.load.stage_stiffness is None else (STAGE,)
+        return frozenset([*moving, *gripping, *adhering, *staged, *self.clock_scalars(0.0)])
 
     def clock_scalars(self, time: float) -> dict[str, float]:
         """Temperature [K], reduced times [s] and thickening [m], by their names in the result."""
@@ -310,17 +323,30 @@ class Problem:
     @property
     def step_count(self) -> float:
         """Number of steps, estimated for adaptive ones."""
-        if self.adaptive is None:
+        chosen = self.chosen_steps
+        if chosen is None:
             return float(len(self.planned_steps))
-        return estimated_steps(self.adaptive, self.history, self.surface.creep)
+        return estimated_steps(chosen, self.history, self.surface.creep)
+
+    @property
+    def chosen_steps(self) -> AdaptiveTimes | None:
+        """Requirements on steps that the run chooses, also between given times; None without."""
+        if self.adaptive is not None or self.adhesion is None:
+            return self.adaptive
+        # Adhesive contacts are followed in steps of small changes of the force.
+        return AdaptiveTimes(self.end or 1.0, ADHESIVE_STEP_TOLERANCE)
 
     def steps(self, cell_size: tuple[float, float]) -> FixedSteps | AdaptiveSteps:
         """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
-        if self.adaptive is None:
+        chosen = self.chosen_steps
+        if chosen is None:
             return FixedSteps(self.planned_steps)
         creep, marks = self.surface.creep, self.motion.times_at_cells(cell_size)
-        clocks = self.surface.clocks
-        return AdaptiveSteps(self.adaptive, self.instants, self.history, creep, marks, clocks)
+        return AdaptiveSteps(
+            *(chosen, self.instants, self.history, creep, marks, self.surface.clocks),
+            shown=None if self.adaptive else self.instants,
+            least=MIN_STEP_FRACTION if self.adhesion is None else SHORTEST_ADHESIVE_STEP,
+        )
 
     @cached_property
     def data_times(self) -> tuple[DataTimes, ...]:

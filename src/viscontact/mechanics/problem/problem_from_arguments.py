@@ -7,6 +7,7 @@ from typing import Any, NotRequired, TypedDict, Unpack
 
 from numpy.typing import ArrayLike
 
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction, as_friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
@@ -36,6 +37,7 @@ class Arguments(TypedDict):
     motion: NotRequired[Motion | None]
     temperature: NotRequired[TemperatureHistory | float | None]
     friction: NotRequired[Friction | float | None]
+    adhesion: NotRequired[Adhesion | None]
     tangential: NotRequired[TangentialLoad | None]
 
 

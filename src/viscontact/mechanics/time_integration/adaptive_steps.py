@@ -68,9 +68,10 @@ class AdaptiveSteps:
 
     # `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
     # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
-    # Over a step the rates of the clocks change little.
+    # Over a step the rates of the clocks change little. States are requested at the end of each
+    # step, or at the `shown` times only [s]; `least` is the shortest step as a part of the run.
 
-    def __init__(
+    def __init__(  # noqa: PLR0913
         self,
         request: AdaptiveTimes,
         stops: Floats,
@@ -78,6 +79,9 @@ class AdaptiveSteps:
         compliance: ContactCompliance,
         marks: Floats | None = None,
         clocks: Sequence[Clock] = (),
+        *,
+        shown: Floats | None = None,
+        least: float = MIN_STEP_FRACTION,
     ) -> None:
         self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
@@ -89,16 +93,23 @@ class AdaptiveSteps:
         stopping = np.unique(np.concatenate([load.stops, *(each.kinks for each in clocks)]))
         self._jumps = set(load.jumps.tolist())
         requested = {snap_to_kink(stop, stopping) for stop in [*stops.tolist(), request.end]}
+        given = None if shown is None else shown.tolist()
+        #: Requested times by the ends of the steps there; None: at the end of each step.
+        self._shown = None if given is None else {snap_to_kink(t, stopping): t for t in given}
+        self._least = least
         inner = {stop for stop in stopping.tolist() if stop < self._end}
         self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0
-        self._step: TimeStep | None = TimeStep(0.0, 0.0, 0.0, smooth=False)
+        self._step: TimeStep | None = TimeStep(0.0, 0.0, self._state_at(0.0), smooth=False)
         self._growth = MAX_FACTOR
 
     @property
     def left(self) -> int:
-        """Estimated number of remaining steps, if they continue to grow as they did."""
+        """Number of requested states still to come: where all steps have one, an estimate."""
+        if self._shown is not None:
+            ahead = [0.0] if self._duration == 0 else []
+            return sum(time > self._time for time in self._shown) + len(ahead)
         way = self._end - self._time
         if way <= 0:
             return 0
@@ -113,8 +124,12 @@ class AdaptiveSteps:
         """Next step; None at the end."""
         return self._step
 
-    def accept_step(self, error: float) -> bool:
-        """Accept the step if its relative error [-] is allowed, else choose a shorter one."""
+    def accept_step(self, error: float, change: float = 0.0) -> bool:
+        """Accept the step if its relative error [-] is allowed, else choose a shorter one.
+
+        `change` is that of the force over the largest one that is allowed in a step; inf where the
+        contact has jumped, which ends a smooth part of the run.
+        """
         step = self._step
         assert step is not None  # there was one to be accepted
         if step.is_jump:
@@ -122,16 +137,19 @@ class AdaptiveSteps:
             return True
         # Proposed factor of the duration (Hairer, Norsett & Wanner, section II.4), limited below.
         factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
+        factor = min(factor, SAFETY_FACTOR / max(change, 1e-30))
         # Error too large: repeat with a shorter duration.
-        if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:
+        is_too_long = error > self._allowed or change > 1
+        if is_too_long and not self._is_shortest(step.duration):
             self._duration = step.duration * min(max(factor, MIN_FACTOR), 0.8)
             self._step = self._next_step(step.smooth)
             return False
-        self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if error > 0 else MAX_FACTOR
+        changed = error > 0 or change > 0
+        self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if changed else MAX_FACTOR
         # A step that a stop cut short does not reduce the duration that it was cut from.
         self._duration = min(self._duration, MAX_FACTOR * step.duration)
         self._duration = max(self._duration, self._growth * step.duration)
-        self._advance(step)
+        self._advance(step, jumped=math.isinf(change))
         return True
 
     def restart_data(self) -> RestartData:
@@ -150,11 +168,19 @@ class AdaptiveSteps:
         )
         self._step = None if restart_data["step"] is None else TimeStep(**restart_data["step"])
 
-    def _advance(self, step: TimeStep) -> None:
+    def _is_shortest(self, duration: float) -> bool:
+        """True if a step is not to be shortened [s]."""
+        return duration <= self._least * self._end
+
+    def _state_at(self, time: float) -> float | None:
+        """Requested time of a state at the end of a step [s]; None without one."""
+        return time if self._shown is None else self._shown.get(time)
+
+    def _advance(self, step: TimeStep, *, jumped: bool = False) -> None:
         """Move to the end of an accepted step, and choose the next one."""
         self._time = step.time
         if step.before_jump:
-            self._step = TimeStep(step.time, 0.0, step.time, smooth=False)
+            self._step = TimeStep(step.time, 0.0, self._state_at(step.time), smooth=False)
         elif self._time >= self._end:
             self._step = None
         else:
@@ -164,7 +190,7 @@ class AdaptiveSteps:
                 starts = step.is_jump or self._time in self._touches
                 before = 0.0 if starts else step.duration
                 self._duration = max(self._first_duration(), before)
-            self._step = self._next_step(smooth=not after_kink)
+            self._step = self._next_step(smooth=not (after_kink or jumped))
 
     def _next_step(self, smooth: bool) -> TimeStep:
         """Step of about the current duration, up to the next stop at most."""
@@ -182,7 +208,12 @@ class AdaptiveSteps:
         time = stop if parts <= 1 else self._last_mark(self._time + duration)
         duration = duration if parts <= 1 else time - self._time
         jumps = parts <= 1 and stop in self._jumps
-        return TimeStep(time, duration, None if jumps else time, smooth, before_jump=jumps)
+        requested, shortest = self._state_at(time), self._is_shortest(duration)
+        return TimeStep(
+            *(time, duration, None if jumps else requested, smooth),
+            before_jump=jumps,
+            is_shortest=shortest,
+        )
 
     def _last_mark(self, time: float) -> float:
         """The last mark of a step up to a time, or the time without one [s]."""

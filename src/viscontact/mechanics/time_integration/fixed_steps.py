@@ -35,6 +35,7 @@ class TimeStep:
     requested: float | None  # requested time that it ends at [s], None for an inner step
     smooth: bool  # False for the first step after a kink, jump or touch of the load
     before_jump: bool = False  # the load jumps right after the step
+    is_shortest: bool = False  # no shorter step is possible
 
     @property
     def is_jump(self) -> bool:
@@ -105,9 +106,9 @@ class FixedSteps:
         """Next step; None at the end."""
         return self._steps[self._taken] if self._taken < len(self._steps) else None
 
-    def accept_step(self, error: float) -> bool:
+    def accept_step(self, error: float, change: float = 0.0) -> bool:
         """Accept the step; prescribed steps are always accepted."""
-        del error
+        del error, change
         self._taken += 1
         return True
 

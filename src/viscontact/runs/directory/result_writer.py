@@ -15,7 +15,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import ADHESION, ContactState, as_event
 from viscontact.results.digests import RunningDigests, store_digests
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.results.seal import seal
@@ -37,7 +37,7 @@ from viscontact.runs.directory.netcdf_layout import (
 )
 from viscontact.runs.directory.write_guard import WriteGuard
 from viscontact.simulation.accuracy.error_bars import ErrorBars
-from viscontact.simulation.transient.provenance import date_and_time
+from viscontact.simulation.transient.provenance import contact_event_attributes, date_and_time
 
 #: Rows of scalars that wait in memory at most.
 WAITING = 4096
@@ -103,6 +103,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         # Positions of earlier versions lack it.
         self._date: str = position.get("started") or date_and_time()
         self._warnings, self._enlarged = list(position["warnings"]), list(position["enlarged"])
+        # Positions of earlier versions have no events.
+        self._events = [as_event(each) for each in position.get("events", ())]
         # States without fields, of rows from `_written` on.
         self._waiting: list[ContactState] = []
         self._written = self._done.rows
@@ -125,6 +127,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             "started": self._date,
             "cells": list(self.grid.shape),
             "enlarged": list(self._enlarged),
+            "events": [list(event) for event in self._events],
         }
 
     def append(self, state: ContactState) -> None:
@@ -142,6 +145,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             self._enlarged.append(enlargement(state.time, self.grid, state.grid))
             self.grid = state.grid
         self._warnings += state.warnings
+        self._events += state.events
         self._done = Extent(rows + 1, field_rows)
         if len(self._waiting) >= WAITING:
             with self._guard.writing():
@@ -267,8 +271,15 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         return working_files(self._path)[0]
 
     @property
+    def _has_events(self) -> bool:
+        """True for bodies that adhere."""
+        return ADHESION in self._contents.parts
+
+    @property
     def _attributes(self) -> dict[str, Any]:
+        events = contact_event_attributes(self._events) if self._has_events else {}
         return {
+            **events,  # without the errors that the attributes of a finished run have
             **self._contents.attributes,
             "complete": np.int32(self._complete),
             "warnings": "\n".join(self._warnings),

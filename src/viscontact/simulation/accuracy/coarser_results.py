@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -52,6 +53,8 @@ class CoarserResult:
     #: Ends of the segments of a load program, NaN where they ended in another way than those of the
     #: run; none of other loads [s].
     segment_ends: Floats = field(default_factory=lambda: np.zeros(0))
+    #: Largest pull [N] and its time [s] of the bodies that it pulls off each other.
+    pull_off: tuple[float, float] = (math.nan, math.nan)
 
     def at(self, instants: Floats, *, segment_ends: Floats) -> CoarserResult:
         """The result at instants of the original run, without those that are NaN [s]."""
@@ -80,6 +83,7 @@ class ObservedStates:
         self._run, self._spacing = run, spacing
         self._end_cells = cells_at_end(run.open_gap)
         self._states: list[ContactState] = []
+        self._pull_off = math.nan, math.nan
         self._ends: list[tuple[float, float]] = []
         self._at_end: list[bool] = []
         self._bends: list[tuple[float, float]] = []
@@ -97,6 +101,9 @@ class ObservedStates:
         """Add the next state."""
         run, pressure = self._run, state.pressure
         self._states.append(state.without_fields())
+        for event in state.events:
+            if event.kind == "pull_off" and not event.pull <= self._pull_off[0]:
+                self._pull_off = event.pull, event.pull_time
         self._ends.append(self._end_cells.pressures(pressure))
         self._at_end.append(bool(state.in_contact[self._end_cells.beside].any()))
         self._examine_body(state)
@@ -123,6 +130,7 @@ class ObservedStates:
             np.array(self._exponents, dtype=float),
             np.array(self._rises, dtype=bool).reshape(-1, 2),
             self._is_sharp,
+            pull_off=self._pull_off,
         )
 
     def _examine_body(self, state: ContactState) -> None:

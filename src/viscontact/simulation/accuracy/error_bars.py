@@ -34,6 +34,7 @@ from viscontact.simulation.accuracy.error_models import (
 )
 from viscontact.simulation.accuracy.event_bars import (
     event_errors,
+    pull_off_errors,
     segment_end_errors,
     set_bars_at_events,
     widen_after_events,
@@ -71,6 +72,9 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure", "peak_line_load"),
 )
 
+#: Those that are zero without contact of bodies that adhere, too.
+EXTENTS = ("contact_area", "contact_length", "contact_width")
+
 #: The same of a contact under friction.
 ZERO_WITHOUT_GRIP = (
     *("tangential_force_x", "tangential_force_y", "torque"),
@@ -91,7 +95,7 @@ class ErrorBars:
     values: dict[str, Floats]
     warnings: tuple[str, ...]  # warnings that follow from the coarser runs
     #: Attributes of the result that they replace: the errors of the instants of events.
-    attributes: Mapping[str, str | list[float]] = field(default_factory=dict)
+    attributes: Mapping[str, str | float | list[float]] = field(default_factory=dict)
 
 
 def error_bars(
@@ -146,14 +150,16 @@ def error_bars_from(
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
-    return ErrorBars(values, warnings, event_errors(run, ends))
+    attributes = {**event_errors(run, ends), **pull_off_errors(run, found)}
+    return ErrorBars(values, warnings, attributes)
 
 
 def _zero_without_contact(
     run: RunSetup, values: dict[str, Floats], apart: Bools, touching: Bools
 ) -> None:
     """Set bars of zero at instants at which bodies are apart, or have not touched before."""
-    zero: list[tuple[tuple[str, ...], Bools]] = [(ZERO_WITHOUT_CONTACT, apart)]
+    without = ZERO_WITHOUT_CONTACT if run.law is None else EXTENTS
+    zero: list[tuple[tuple[str, ...], Bools]] = [(without, apart)]
     if not run.problem.motion.stands:
         before = apart & ~np.logical_or.accumulate(touching)
         zero += [(ZERO_WITHOUT_MOVING_CONTACT, apart), (ZERO_BEFORE_CONTACT, before)]

@@ -93,6 +93,10 @@ _SHIFT = ErrorModel(2.0, 1.5, of_time_error=0.5)
 _STICK = ErrorModel(1.0, 0.8, of_time_error=0.5)
 _FRICTION_HEAT = ErrorModel(1.5, 0.7, of_time_error=0.5)
 
+#: Least pressure, and the pull-off force by the coarser grids alone.
+_PULL = ErrorModel(2.0, 2.0, of_time_error=0.5)
+PULL_OFF = ErrorModel(2.0, 2.0)
+
 #: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
 #: except at the rim, which lies between cells.
 ERROR_MODELS = {
@@ -127,6 +131,9 @@ ERROR_MODELS = {
     "friction_power": _FRICTION_HEAT,
     "tangential_stiffness_x": _SHIFT,
     "tangential_stiffness_y": _SHIFT,
+    "least_pressure": _PULL,
+    "tensile_area": ErrorModel(1.0, 1.5),
+    "adhesion_energy": _BULK,
 }
 
 #: Those that replace them for moving contacts: the loss of a cycle has the work of the motion.

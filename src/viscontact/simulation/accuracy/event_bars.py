@@ -7,7 +7,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import MixedHistory
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
-from viscontact.simulation.accuracy.error_models import INSTANTS
+from viscontact.simulation.accuracy.error_models import INSTANTS, PULL_OFF
 from viscontact.simulation.accuracy.least_bars import TINY
 from viscontact.simulation.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
 from viscontact.simulation.transient.provenance import event_attributes
@@ -51,6 +51,20 @@ def with_least_errors(
             least = values[event.scalar][at] * duration / max(abs(change), TINY)
             raised[event.segment - 1] = np.fmax(errors[event.segment - 1], least)
     return np.where(np.isnan(errors), errors, np.fmax.accumulate(raised))
+
+
+def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, float]:
+    """Errors of pull-off force [N] and time [s] as attributes; NaN where a coarser run has none."""
+    if run.law is None:
+        return {}
+    grids = [each for each in results if not each.divides_steps]
+    # The run's own values are not among them: the coarser grids tell how far it is off, too.
+    rows = np.array([each.pull_off for each in grids]).T.reshape(2, -1, 1)
+    spacings = tuple(each.spacing for each in grids)
+    force, time = (
+        float(PULL_OFF.of(RefinementLevels(spacings, row, np.zeros(1)))[0]) for row in rows
+    )
+    return {"pull_off_force_error": force, "pull_off_time_error": time}
 
 
 def event_errors(run: RunSetup, errors: Floats) -> dict[str, str | list[float]]:

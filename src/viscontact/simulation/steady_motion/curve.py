@@ -167,7 +167,7 @@ def _refuse(contact: SteadyContact, tolerance: float, *, chosen: bool) -> None:
     """Raise if a contact is not found, reaches the rim, or has too few cells."""
     grid, speed = contact.grid, format_quantity(contact.speed, "m/s", 6)
     solution = contact.solution
-    cut = np.logical_and(overrun(contact.pressure), np.logical_not(grid.periodic))
+    cut = np.logical_and(overrun(contact.in_contact), np.logical_not(grid.periodic))
     if cut.any():
         size = " x ".join(format_quantity(each, "m") for each in grid.size)
         remedy = (

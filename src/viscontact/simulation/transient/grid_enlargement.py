@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -23,11 +23,11 @@ FACTOR = 1.5
 FREE = MARGIN
 
 
-def overrun(pressure: Floats, free: int = 1) -> tuple[bool, bool]:
-    """True for x and for y if pressure has reached the `free` outermost cells of a side."""
+def overrun(in_contact: Bools, free: int = 1) -> tuple[bool, bool]:
+    """True for x and for y if contact has reached the `free` outermost cells of a side."""
     both = (slice(0, free), slice(-free, None))
-    along = any(bool(pressure[ends, :].any()) for ends in both)
-    return along, any(bool(pressure[:, ends].any()) for ends in both)
+    along = any(bool(in_contact[ends, :].any()) for ends in both)
+    return along, any(bool(in_contact[:, ends].any()) for ends in both)
 
 
 def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:

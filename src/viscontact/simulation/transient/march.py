@@ -24,7 +24,7 @@ from viscontact.simulation.transient.grid_enlargement import (
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
-from viscontact.simulation.transient.stepper import Stepper, TrialStep
+from viscontact.simulation.transient.stepper import Stepper, StepTooLongError, TrialStep
 from viscontact.units.formatting import format_quantity
 
 _LOG = logging.getLogger("viscontact")
@@ -51,11 +51,16 @@ class March:
 
     def __iter__(self) -> Iterator[ContactState | None]:
         """Solve the remaining steps; yield each requested state, None for inner steps."""
-        while self._steps.next_step() is not None:
+        while self._steps.next_step() is not None and not self._is_over:
             yield self._solved_step()
             if self._failure is not None:
                 raise ConvergenceError(self._failure)
         self._observer.refuse_coarse_mesh()
+
+    @property
+    def _is_over(self) -> bool:
+        """True where nothing is left to be solved: a given force has pulled the bodies apart."""
+        return self.outcome is Outcome.PULLED_OFF
 
     @property
     def left(self) -> int:
@@ -72,6 +77,7 @@ class March:
             "patch": list(self._domain.kept_patch),
             "cells": list(self._run.grid.shape),
             "done": self.done,
+            "outcome": int(self.outcome),
         }
 
     def _restore(self, restart_data: RestartData) -> None:
@@ -82,6 +88,7 @@ class March:
         first_row, last_row, first_column, last_column = restart_data["patch"]
         self._domain.keep_patch((first_row, last_row, first_column, last_column))
         self.done = restart_data["done"]
+        self.outcome = Outcome(restart_data.get("outcome", Outcome.CONVERGED))
 
     def _advance(self) -> tuple[TimeStep, TrialStep]:
         """Solve the next step; repeat it on a larger grid, or shorter, where necessary."""
@@ -90,11 +97,15 @@ class March:
         while True:
             step = self._steps.next_step()
             assert step is not None  # the caller has seen one, and a refused one is replaced
-            trial = self._stepper.trial(step)
+            try:
+                trial = self._stepper.trial(step)
+            except StepTooLongError as found:
+                self._steps.accept_step(0.0, found.change)
+                continue
             if self._outgrows(step, trial):
                 continue  # the same step again, on the larger grid
             failed = trial.outcome is Outcome.NOT_CONVERGED
-            if failed or self._steps.accept_step(trial.error.relative):
+            if failed or self._steps.accept_step(trial.error.relative, trial.change):
                 return step, trial
             _LOG.debug("step to t = %.6g s: error %.2g, repeated", step.time, trial.error.relative)
 
@@ -102,7 +113,7 @@ class March:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
         if not self._run.grows:
             return False
-        over = overrun(self._domain.expand_by_symmetry(trial.solution.found.pressure), FREE)
+        over = overrun(self._domain.expand_by_symmetry(trial.solution.in_contact), FREE)
         if not any(over):
             return False
         larger = next_grid(self._run.grid, *over)
@@ -141,10 +152,11 @@ class March:
             "step to t = %.6g s: %d iterations, residual %.2g",
             *(step.time, solution.iterations, solution.residual),
         )
-        if step.requested is None:
+        if step.requested is None and not self._is_over:
             return None
         self.done += 1
-        last = step.requested >= self._run.problem.end
+        is_end = step.requested is not None and step.requested >= self._run.problem.end
+        last = self._is_over or is_end
         if last:
             self._observer.warn(self._friction.warnings_at_end)
         return self._observer.add_warnings(state, last=last)
@@ -162,8 +174,8 @@ def domain_of(run: RunSetup) -> ContactDomain:
 
 
 def refuse_rim(run: RunSetup, step: TimeStep, solution: StepSolution) -> None:
-    """Raise DomainError if there is pressure in the outermost cells."""
-    reached = zip(overrun(solution.pressure), run.grid.periodic, strict=True)
+    """Raise DomainError if the outermost cells are in contact."""
+    reached = zip(overrun(solution.in_contact), run.grid.periodic, strict=True)
     if not any(over and not repeats for over, repeats in reached):
         return
     raise DomainError(

@@ -20,6 +20,7 @@ from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.checks.adhesion import tail_warnings
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.simulation.checks.material import (
@@ -36,6 +37,8 @@ from viscontact.simulation.checks.tested_limits import (
     limited_bodies,
     loaded_since,
 )
+from viscontact.simulation.transient.adhesion_results import adhesion_energy, adhesion_scalars
+from viscontact.simulation.transient.contact_events import ContactEvents
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
 from viscontact.simulation.transient.moving_contact import MovingContact, StandingContact
@@ -69,13 +72,14 @@ class Observer:
         self._since = loaded_since(run.problem.contact_load)
         clocks = run.problem.clocks
         self._limited = limited_bodies(run.problem.bodies, clocks, self._since) if warns else ()
+        self._events = None if run.law is None else ContactEvents()
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
         self._held = False  # the load of the last step
-        self._trend = (
-            None if run.problem.surface.creep.is_elastic else ContactTrend.at_first(run.grid)
-        )
+        # Where bodies adhere, the pressure at the rim is the attraction, which tells no recession.
+        plain = run.problem.surface.creep.is_elastic or run.law is not None
+        self._trend = None if plain else ContactTrend.at_first(run.grid)
         self._cycles = LoadCycleWork(run.problem.history.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: Bools | None = None  # its spots are not counted yet
@@ -108,16 +112,24 @@ class Observer:
         self._work += self._work_of(point, solution) if has_datum else math.nan
         moved: dict[str, Any] = self._motion.evaluate(step, solution)
         moved |= self._run.problem.clock_scalars(step.time)
+        if self._run.law is not None:
+            moved |= adhesion_scalars(self._run, solution)
+        if self._run.problem.load.stage_stiffness is not None:
+            moved["stage_position"] = point.approach
         # The surface takes up the work of the load and that of the motion.
         self._work -= 0.0 if self._held else self._motion.added
         self._cycles.record_work(step, self._work + self._motion.work)
         if self._warns:
             self._collect_warnings(step, solution, rim)
         state = _state(
-            *(step, solution, rim, self._work, self._cycles.last_loss), has_datum=has_datum
+            *(step, solution, rim, self._work, self._cycles.last_loss),
+            has_datum=has_datum,
+            adheres=self._run.law is not None,
         )
         grown = self._run.problem.thickening_at(step.time)
         state = replace(state, approach=state.approach - grown, **moved)
+        if self._events is not None:
+            self._events.after(state)
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -152,6 +164,8 @@ class Observer:
         if last:
             moving = self._motion.warnings()
         found = self._warnings.new(self._open, mesh, unreported | moving)
+        if self._events is not None:
+            state = replace(state, events=self._events.reported())
         return replace(state, warnings=found) if found else state
 
     def refuse_coarse_mesh(self) -> None:
@@ -182,6 +196,7 @@ class Observer:
             "peak": [self._peak, self._peak_time, self._peak_reported],
             "peak_checked": self._peak_checked,
             "motion": self._motion.restart_data(),
+            "events": self._events and self._events.restart_data(),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -204,6 +219,8 @@ class Observer:
         self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
         self._peak_checked = restart_data["peak_checked"]
         self._motion.restore(restart_data["motion"])
+        if self._events is not None:
+            self._events.restore(restart_data["events"])
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""
@@ -230,6 +247,8 @@ class Observer:
             found = diffusion_warnings(problem, half_width) | found
             if self._limited:
                 found = self._limit_warnings(step.time, solution, rim) | found
+        if self._run.law is not None:
+            found = tail_warnings(self._run.law, solution.pressure, self._run.grid) | found
         found = loading_warnings(self._run, step, self._before, solution) | found
         self._open = found | self._open
 
@@ -239,6 +258,8 @@ class Observer:
         # response at once is the least that it can be.
         loaded = time - self._since if self._run.problem.motion.stands else 0.0
         force, peak = float(solution.resultants[0]), float(solution.pressure.max())
+        if peak <= 0:  # pulled all over
+            return {}
         contact = Contact(
             force / max(rim.area, force / peak),
             min(rim.length, rim.width) / 2,
@@ -262,12 +283,15 @@ class Observer:
         """Work over a step: exact while the load is held, and for all that is elastic."""
         before, point_before = self._before, self._point
         self._point, self._held = point, False
+        law = self._run.law
         if before is None:  # every run starts with a jump
-            return self._run.problem.compliance.instant * solution.energy
+            gained = 0.0 if law is None else adhesion_energy(law, self._run.grid, solution.gap)
+            return self._run.problem.compliance.instant * solution.energy - gained
         travel = solution.motion - before.motion
         of_load = float((before.resultants + solution.resultants) @ travel / 2)
         if point == point_before:
             self._held = True
+        if self._held or law is not None:
             return of_load
         # Where the load moves, force times approach is not exact, as an elastic contact's force is
         # no straight function of its approach; a cycle in long steps would gain energy. Mean
@@ -294,14 +318,15 @@ def _state(
     loss: float,
     *,
     has_datum: bool,
+    adheres: bool,
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
-    touching = force > 0
+    touching = bool(solution.in_contact.any()) if adheres else force > 0
     # Along its period a surface has no centre from which the force could be offset.
     centred_x, centred_y = (touching and not repeats for repeats in rim.grid.periodic)
-    peak = float(solution.pressure.max())
+    peak = max(float(solution.pressure.max()), 0.0)
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
-    area = max(rim.area, force / peak) if touching else 0.0
+    area = max(rim.area, force / peak if peak > 0 else 0.0) if touching else 0.0
     load = line_load(solution.pressure, rim.grid)
     return ContactState(
         time=step.time if step.requested is None else step.requested,
@@ -321,7 +346,7 @@ def _state(
         contact_length=rim.length,
         contact_width=rim.width,
         peak_pressure=peak,
-        mean_pressure=min(force / area, peak) if touching else 0.0,  # rounded
+        mean_pressure=min(force / area, peak) if area > 0 else 0.0,  # rounded
         peak_line_load=peak_line_load(load, rim.grid, rim.length),
         work=work,
         loss_per_cycle=loss,

@@ -12,6 +12,7 @@ from viscontact import __version__
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import MixedHistory
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactEvent
 from viscontact.results.descriptions import describe
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
@@ -60,12 +61,44 @@ def event_attributes(
     }
 
 
+def contact_event_attributes(events: Sequence[ContactEvent]) -> dict[str, Any]:
+    """Return where bodies that adhere came into contact and lost it, and the largest pull."""
+    pulls = [event for event in events if event.kind == "pull_off"]
+    largest = max(pulls, key=lambda event: event.pull, default=None)
+    return {
+        "events": "\n".join(map(_event_line, events)),
+        "event_times": [event.time for event in events],
+        "event_time_errors": [math.nan] * len(events),
+        "event_kind": "\n".join(event.kind for event in events),
+        "event_force": [force for event in events for force in event.force],
+        "event_approach": [approach for event in events for approach in event.approach],
+        "pull_off_force": math.nan if largest is None else largest.pull,
+        "pull_off_force_error": math.nan,
+        "pull_off_time": math.nan if largest is None else largest.pull_time,
+        "pull_off_time_error": math.nan,
+    }
+
+
+def _event_line(event: ContactEvent) -> str:
+    """Describe an event in words."""
+    before, after = (format_quantity(force, "N", 4) for force in event.force)
+    instant = format_quantity(event.time, "s", 6)
+    if event.kind == "jump_in":
+        return f"{instant}: the bodies come into contact, force {before} before and {after} after"
+    pull = format_quantity(event.pull, "N", 4)
+    forces = f"force {before} before and {after} after"
+    return f"{instant}: contact is lost, {forces}; pull-off force {pull}"
+
+
 def describe_problem(problem: Problem, grid: Grid | None) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
     heat = {} if problem.temperature is None else {"temperature": describe(problem.temperature)}
     grip = {
         name: describe(given)
-        for name, given in (("friction", problem.friction), ("tangential", problem.tangential))
+        for name, given in (
+            *(("friction", problem.friction), ("tangential", problem.tangential)),
+            ("adhesion", problem.adhesion),
+        )
         if given is not None
     }
     motion = {} if problem.motion.stands else {"motion": describe(problem.motion)}

@@ -11,6 +11,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
+from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
@@ -20,6 +21,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.shear_terms import shear_terms
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
+from viscontact.simulation.checks.adhesion import check_adhesion, law_on
 from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
 from viscontact.simulation.checks.motion import check_motion, check_path
 from viscontact.simulation.checks.periodicity import check_endless, check_period
@@ -54,6 +56,7 @@ class RunSetup:
     threads: int
     transforms: str  # library, which a run keeps, as rounding differs
     other_terms: tuple[HereditaryPlan, ...] = ()  # of layers that creep differently
+    law: CohesiveLaw | None = None  # attraction of bodies that adhere
 
     @property
     def plans(self) -> tuple[HereditaryPlan, ...]:
@@ -111,6 +114,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
     check_motion(problem)
     check_friction(problem)
+    check_adhesion(problem)
     # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
@@ -137,10 +141,12 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_balance(points[1:], open_gap, about_body)
     check_path(problem, grid)
     check_grid_of_friction(problem, grid)
+    law = None if problem.adhesion is None else law_on(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan, *others = plan_history(problem, open_gap, grid)
     transforms = fastest_transforms()
-    return RunSetup(*(problem, grid, open_gap, plan, mesh, int(threads), transforms, tuple(others)))
+    terms = tuple(others)
+    return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), transforms, terms, law)
 
 
 def _mesh_over_path(problem: Problem) -> Mesh:
@@ -209,14 +215,15 @@ def _planned(
     problem: Problem, functions: Sequence[ContactCompliance], numbers: int
 ) -> list[HereditaryPlan]:
     """Hereditary integrals of creep functions over the steps, of so many numbers each."""
-    if problem.adaptive is None:
+    chosen = problem.chosen_steps
+    if chosen is None:
         ends = step_ends(problem.planned_steps)
     else:
         # The steps are not known yet: many are assumed, over all decades that may count.
-        end = problem.adaptive.end
+        end = chosen.end
         count = max(ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * problem.step_count))
         ends = np.append(0.0, np.geomspace(1e-9 * end, end, count))
     plans = [plan_hereditary_integral(compliance, ends, numbers) for compliance in functions]
-    if problem.adaptive is None:
+    if chosen is None:
         return plans
     return [replace(plan, instants=np.zeros(0)) for plan in plans]

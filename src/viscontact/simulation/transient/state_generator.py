@@ -9,6 +9,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
@@ -47,6 +48,7 @@ def march(  # noqa: PLR0913
     temperature: TemperatureHistory | float | None = None,
     friction: Friction | float | None = None,
     tangential: TangentialLoad | None = None,
+    adhesion: Adhesion | None = None,
 ) -> Iterator[ContactState]:
     """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
 
@@ -90,6 +92,10 @@ def march(  # noqa: PLR0913
         frictionless when left out.
     tangential : TangentialHistory or TangentialHarmonic, optional
         Load along the surface: forces and a torque, or shifts and a rotation.
+    adhesion : Adhesion, optional
+        Work of adhesion between the bodies, its range and law. The run then chooses its steps by
+        the change of the force, also between given times. The bodies do not attract each other when
+        left out.
 
     Returns
     -------
@@ -140,6 +146,7 @@ def march(  # noqa: PLR0913
         temperature=temperature,
         friction=friction,
         tangential=tangential,
+        adhesion=adhesion,
     )
     run = prepare_run(carried_out(problem, threads), threads)
     return march_run(run, report)

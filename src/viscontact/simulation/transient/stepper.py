@@ -38,6 +38,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import response_t
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
+from viscontact.simulation.transient.adhesive_contact import AdhesiveContact, AdhesiveStep
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
@@ -74,6 +75,20 @@ class TrialStep:
     reference: ElasticReference
     outcome: Outcome
     error: StepError
+    adhesive: AdhesiveStep | None = None
+
+    @property
+    def change(self) -> float:
+        """Change of the force over the largest one of a step; 0 where it is not limited [-]."""
+        return 0.0 if self.adhesive is None else self.adhesive.change
+
+
+class StepTooLongError(Exception):
+    """A step that has to be shorter before it can be solved."""
+
+    def __init__(self, change: float) -> None:
+        """Take the change of the force over the largest one of a step [-]."""
+        self.change = change
 
 
 class Stepper:
@@ -90,17 +105,24 @@ class Stepper:
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
+        self._adhesive = _adhesive_contact(run, domain)
 
     def trial(self, step: TimeStep) -> TrialStep:
-        """Solve a step without accepting it."""
+        """Solve a step without accepting it; StepTooLongError if it has to be shorter."""
         posed = self._step_problem(step)
-        solution, outcome = self._solve_step(step, posed)
+        adhesive = self._solve_adhesive(step, posed)
+        if adhesive is None:
+            solution, outcome = self._solve_step(step, posed)
+        else:
+            solution, outcome = adhesive.solution, adhesive.outcome
         response = posed.response
         pairs = self._history.pairs(response, solution.values)
         reference = ElasticReference(step.time, posed.drive, response.of(pairs), solution.motion)
         creeping = pairs[self._creeping], response.terms[self._creeping]
         error = self._errors.of_step(step, posed.point, *creeping)  # step 4
-        return TrialStep(posed.point, solution, response, pairs, reference, outcome, error)
+        return TrialStep(
+            posed.point, solution, response, pairs, reference, outcome, error, adhesive
+        )
 
     def whole_solution(self, trial: TrialStep) -> StepSolution:
         """Return the solution of a step on the whole grid, without accepting it."""
@@ -119,6 +141,7 @@ class Stepper:
             "scale": self._scale,
             "references": [vars(reference) for reference in self._references],
             "motion": self._motion,
+            "adhesive": self._adhesive and self._adhesive.restart_data(),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -129,6 +152,8 @@ class Stepper:
         self._scale = restart_data["scale"]
         self._references = [ElasticReference(**each) for each in restart_data["references"]]
         self._motion = restart_data["motion"]
+        if self._adhesive is not None:
+            self._adhesive.restore(restart_data["adhesive"])
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
@@ -139,6 +164,8 @@ class Stepper:
         self._references = [
             replace(reference, fields=mapped(reference.fields)) for reference in self._references
         ]
+        if self._adhesive is not None:
+            self._adhesive.map_fields(enlargement)
 
     def _step_problem(self, step: TimeStep) -> StepProblem:
         """Pose a step: load at its end, response of the history, elastic contact to be solved."""
@@ -169,11 +196,12 @@ class Stepper:
 
     def accept(self, step: TimeStep, trial: TrialStep) -> StepSolution:
         """Add a solved step to the history (step 5), and return its solution on the whole grid."""
-        if trial.outcome is Outcome.NO_CONTACT:
+        if trial.outcome is Outcome.NO_CONTACT and trial.adhesive is None:
             self._references = []
         else:
             # A jump breaks the extrapolation: what came before it does not count.
-            known = [] if step.is_jump else self._reference_history(step)
+            jumps = step.is_jump or math.isinf(trial.change)
+            known = [] if jumps else self._reference_history(step)
             self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
         self._motion = trial.solution.motion
         loss = self._loss(trial.pairs)
@@ -181,6 +209,9 @@ class Stepper:
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.pairs[self._creeping], trial.error)
         largest = float(trial.reference.fields[1].max())
+        if trial.adhesive is not None:
+            largest = max(largest, -float(trial.reference.fields[1].min()))
+            self._adhesive_accept(trial.adhesive)
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
         return _on_full_grid(self._domain, trial, time_error, loss)
 
@@ -277,6 +308,20 @@ class Stepper:
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
         return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT
 
+    def _solve_adhesive(self, step: TimeStep, posed: StepProblem) -> AdhesiveStep | None:
+        """Solve the equilibrium of bodies that adhere (step 3); None without adhesion."""
+        if self._adhesive is None:
+            return None
+        spring = self._run.problem.load.stage_stiffness
+        found = self._adhesive.solve(step, posed.problem, posed.guess, spring)
+        if found.is_too_long:
+            raise StepTooLongError(found.change)
+        return found
+
+    def _adhesive_accept(self, step: AdhesiveStep) -> None:
+        if self._adhesive is not None:
+            self._adhesive.accept(step)
+
     def _is_separated(self, problem: ContactProblem, motion: Floats) -> bool:
         plane = self._domain.whole.plane.field(motion)
         return bool((problem.open_gap >= plane).all())
@@ -290,6 +335,14 @@ class Stepper:
         motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
         apart = _without_pressure(problem, self._domain, motion)
         return _at_lowest_point(self._run, step.time, apart) if untouched else apart
+
+
+def _adhesive_contact(run: RunSetup, domain: ContactDomain) -> AdhesiveContact | None:
+    """Adhesive contacts of a run; None without adhesion."""
+    if run.law is None:
+        return None
+    open_gap = domain.reduce_by_symmetry(run.open_gap)
+    return AdhesiveContact(run.law, domain, open_gap, run.problem.tolerance)
 
 
 def _force(point: LoadPoint) -> Floats:

@@ -11,6 +11,7 @@ from viscontact.bodies.materials.layers import materials_of
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
+from viscontact.simulation.checks.adhesion import zone_warnings
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.friction import coupling_warnings
@@ -50,6 +51,8 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings |= origin_warnings(problem.materials)
     warnings |= temperature_warnings(problem.materials, problem.temperature)
     warnings |= shift_warnings(problem)
+    if run.law is not None:
+        warnings |= zone_warnings(run.law, problem, run.grid)
     warnings |= coupling_warnings(problem)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
@@ -108,8 +111,8 @@ def loading_warnings(
     run: RunSetup, step: TimeStep, before: StepSolution | None, after: StepSolution
 ) -> dict[str, str]:
     """Return warnings, by kind, about a step from one solution (None: the first) to the next."""
-    if before is None or step.is_jump:
-        return {}
+    if before is None or step.is_jump or run.law is not None:
+        return {}  # the steps of bodies that adhere follow the changes of the force
     touched, touches = (end.outcome is not Outcome.NO_CONTACT for end in (before, after))
     if not (touched and touches):
         return contact_change_warnings(run.problem, step, touched=touched, touches=touches)

@@ -1,0 +1,143 @@
+"""Checks of adhesion, and the attraction on a grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.adhesion import Adhesion
+from viscontact.bodies.cohesive_laws import CohesiveLaw
+from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadHistory, MixedHistory
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.units.formatting import format_quantity
+
+#: Cells across the cohesive zone: fewest of a computation, fewest of an accurate one with a smooth
+#: law and with one that ends abruptly, and those of a range that the grid chooses.
+LEAST_CELLS, ENOUGH_CELLS, ENOUGH_ABRUPT, CHOSEN_CELLS = 0.5, 1.5, 4.0, 1.5
+
+#: Attraction at the edge of a grid from which on a run warns, over the strength [-].
+NOTABLE_TAIL = 1e-4
+
+
+def check_adhesion(problem: Problem) -> None:
+    """Refuse adhesion that cannot be computed, and without it forces that pull."""
+    refused = _refusals(problem) if problem.adhesion else _refusals_without(problem.load)
+    for why in refused:
+        raise ValueError(why)
+
+
+def _refusals_without(load: LoadHistory) -> Iterator[str]:
+    """What a load needs adhesion for."""
+    if load.least_force < 0:
+        force = format_quantity(load.least_force, "N", 6)
+        yield (
+            f"load: the force must be zero or more without adhesion, got {force}; a negative force "
+            "pulls: give adhesion=vc.Adhesion(work, range=...)"
+        )
+    if load.stage_stiffness is not None:
+        yield (
+            "load.stage_stiffness: a stage on a spring is computed for bodies that adhere; give "
+            "adhesion, or prescribe force or approach"
+        )
+
+
+def _refusals(problem: Problem) -> Iterator[str]:
+    """What is not computed with adhesion."""
+    load = problem.load
+    if not problem.motion.stands:
+        yield (
+            "adhesion: a body that moves over the surface is not supported with adhesion; leave "
+            "the motion or adhesion out"
+        )
+    if problem.friction is not None:
+        yield "adhesion: friction is not supported with adhesion; leave one of them out"
+    if isinstance(load, MixedHistory):
+        yield (
+            "adhesion: load programs are not supported with adhesion; prescribe the force or the "
+            "approach throughout"
+        )
+    if not isinstance(problem.grid, Grid):
+        yield (
+            "grid: with adhesion no grid is chosen by the run; give one whose cells resolve the "
+            "cohesive zone, as in grid=vc.Grid(shape, size)"
+        )
+    if load.control == "force" and problem.compliance.instant == 0:
+        yield (
+            "adhesion: under a given force the bodies jump into contact at time 0, but the law has "
+            "no instant compliance; prescribe the approach, or give the law an instant compliance"
+        )
+    if _has_no_range(problem.adhesion) and not problem.surface.creep.is_elastic:
+        yield (
+            "adhesion.range: must be given for bodies that creep, as it sets the speeds at which "
+            "they hold more; give range or strength"
+        )
+
+
+def law_on(problem: Problem, grid: Grid) -> CohesiveLaw:
+    """Attraction of a problem on a grid; ValueError if its cells are too large for the range."""
+    adhesion = problem.adhesion
+    assert adhesion is not None  # the caller has seen one
+    spacing = math.sqrt(grid.cell_area)
+    if _has_no_range(adhesion):
+        strength = math.sqrt(_zone(1.0, adhesion.work, problem) / (CHOSEN_CELLS * spacing))
+        adhesion = Adhesion(adhesion.work, strength=strength, law=adhesion.law)
+    law = adhesion.cohesive_law
+    across = cells_across_zone(law, problem, grid)
+    if across < LEAST_CELLS:
+        cell = format_quantity(spacing, "m", 3)
+        widest = format_quantity(spacing * across / ENOUGH_CELLS, "m", 2)
+        raise ValueError(
+            f"grid: {across:.2g} cells of {cell} lie across the cohesive zone and {LEAST_CELLS:g} "
+            f"are the least ({ENOUGH_CELLS:g} or more recommended); use cells of up to {widest}, "
+            "or a longer range, or leave the range out for the limit of short ranges (JKR)"
+        )
+    return law
+
+
+def cells_across_zone(law: CohesiveLaw, problem: Problem, grid: Grid) -> float:
+    """Cells across the cohesive zone of the relaxed body, π w/(8 J σ0²)."""
+    return _zone(law.strength, law.work, problem) / math.sqrt(grid.cell_area)
+
+
+def zone_warnings(law: CohesiveLaw, problem: Problem, grid: Grid) -> dict[str, str]:
+    """Warn of a cohesive zone of few cells."""
+    across = cells_across_zone(law, problem, grid)
+    enough = ENOUGH_ABRUPT if law.is_abrupt else ENOUGH_CELLS
+    if across >= enough * (1 - 1e-9):
+        return {}
+    return {
+        "zone": (
+            f"{across:.2g} cells lie across the cohesive zone; with fewer than {enough:g} the "
+            "largest pull is off by more than a percent; use smaller cells"
+        )
+    }
+
+
+def tail_warnings(law: CohesiveLaw, pressure: Floats, grid: Grid) -> dict[str, str]:
+    """Warn of an attraction that reaches beyond the grid [Pa]."""
+    lines = pressure, pressure.T
+    ends = [each for each, repeats in zip(lines, grid.periodic, strict=True) if not repeats]
+    largest = max((float(np.abs(each[[0, -1]]).max()) for each in ends), default=0.0)
+    largest /= law.strength
+    if largest <= NOTABLE_TAIL:
+        return {}
+    return {
+        "tail": (
+            f"the attraction at the edge of the grid is {largest:.2g} of the strength: what lies "
+            "beyond is missing in the force; enlarge the grid"
+        )
+    }
+
+
+def _has_no_range(adhesion: Adhesion | None) -> bool:
+    return adhesion is not None and adhesion.range is None and adhesion.strength is None
+
+
+def _zone(strength: float, work: float, problem: Problem) -> float:
+    """Width of the cohesive zone of a straight edge [m] (Maugis 1992, half Dugdale's)."""
+    compliance = problem.compliance(problem.end)
+    return math.pi * work / (8 * float(compliance) * strength**2)

@@ -1,0 +1,31 @@
+"""Scalars of a contact of bodies that adhere."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.cohesive_laws import CohesiveLaw
+from viscontact.bodies.grid import Grid
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.step_solution import StepSolution
+
+#: Part of the strength from which on cells outside the contact belong to the cohesive zone [-].
+ZONE_SHARE = 0.01
+
+
+def adhesion_energy(law: CohesiveLaw, grid: Grid, gap: Floats) -> float:
+    """Work that separating the surfaces from a gap would take [J]."""
+    return float(law.energy(np.maximum(gap, 0.0)).sum()) * grid.cell_area
+
+
+def adhesion_scalars(run: RunSetup, solution: StepSolution) -> dict[str, float]:
+    """Scalars of a state that only contacts with adhesion have, by name."""
+    assert run.law is not None  # the caller has seen one
+    pulled = ~solution.in_contact & (solution.pressure < -ZONE_SHARE * run.law.strength)
+    return {
+        "least_pressure": float(solution.pressure.min()),
+        "tensile_area": np.count_nonzero(pulled) * run.grid.cell_area,
+        "adhesion_energy": adhesion_energy(run.law, run.grid, solution.gap),
+        "stability": solution.stability,
+    }

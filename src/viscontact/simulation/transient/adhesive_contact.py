@@ -1,0 +1,165 @@
+"""Contact of a run whose bodies attract each other: step by step along one stable state.
+
+A step whose force changes little is solved by Newton's method. Where that fails, or the force
+changes much, the step control asks for a shorter step; the shortest one is a jump, to the nearest
+stable state that the descent finds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.cohesive_laws import CohesiveLaw
+from viscontact.mechanics.contact.adhesion.equilibrium import (
+    released,
+    solve_from,
+    solve_near,
+    traction_at,
+)
+from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, AdhesiveSolution
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
+from viscontact.mechanics.state import Outcome
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+
+#: Largest change of the force in a step, over the force or the attraction of the undeformed bodies
+#: where they touch, 2 pi w R of a sphere. The largest pull is then read within 1e-3.
+LARGEST_CHANGE = 0.02
+
+#: Part of a change of the attraction that counts as one of the force [-].
+ATTRACTION_SHARE = 0.5
+
+#: Change of the force, in those, from which on the shortest step is taken for a jump.
+JUMP = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class AdhesiveStep:
+    """Solution of a step, its outcome, and its change of the force over the largest one allowed."""
+
+    solution: AdhesiveSolution
+    outcome: Outcome
+    change: float  # inf of a jump [-]
+    is_too_long: bool = False  # not solved, as a shorter one has to be taken
+
+
+class AdhesiveContact:
+    """Solves adhesive contacts one after the other; keeps the attraction and force of the last."""
+
+    def __init__(
+        self, law: CohesiveLaw, domain: ContactDomain, open_gap: Floats, tolerance: float
+    ) -> None:
+        """Take the gap of the undeformed bodies on the computed cells [m]."""
+        self._law, self._domain, self._tolerance = law, domain, tolerance
+        self._traction: Floats | None = None
+        self._force = self._attraction = 0.0
+        touching = open_gap - open_gap.min()
+        #: Force of the undeformed bodies where they touch [N].
+        self._at_touch = self._sum(law.traction(touching, np.zeros(touching.shape)))
+
+    def solve(
+        self,
+        step: TimeStep,
+        contact: ContactProblem,
+        guess: Guess | None,
+        spring: float | None = None,
+    ) -> AdhesiveStep:
+        """Solve a step; under a spring [N/m] the prescribed approach is that of the stage."""
+        problem = AdhesiveProblem(contact, self._law)
+        if spring is not None:
+            problem = problem.on_spring(
+                spring / self._domain.symmetry_count, contact.constraints.motions[0]
+            )
+        if contact.compliance == 0:
+            return self._stiff(problem)
+        if guess is not None and self._traction is not None:
+            motion = problem.contact.constraints.with_prescribed(guess.motion)
+            near = solve_near(problem, self._domain, Guess(guess.values, motion), self._tolerance)
+            change = self._change(near) if near.converged else math.inf
+            if change <= (JUMP if step.is_shortest else 1.0):
+                return AdhesiveStep(near, _outcome(near), change)
+            if not (step.is_shortest or step.is_jump):
+                return AdhesiveStep(near, _outcome(near), change, is_too_long=True)
+        return self._jumped(problem)
+
+    def accept(self, step: AdhesiveStep) -> None:
+        """Continue from the solution of a step."""
+        self._traction = step.solution.traction
+        self._force = self._sum(step.solution.found.pressure)
+        self._attraction = self._sum(step.solution.traction)
+
+    def restart_data(self) -> RestartData:
+        """Return the attraction and force of the last step as plain data."""
+        return {
+            "traction": self._traction,
+            "force": self._force,
+            "attraction": self._attraction,
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue from restart data of the same run."""
+        self._traction, self._force = restart_data["traction"], restart_data["force"]
+        self._attraction = restart_data["attraction"]
+
+    def map_fields(self, enlargement: GridEnlargement) -> None:
+        """Continue on a larger grid."""
+        self._domain = enlargement.large
+        if self._traction is not None:
+            self._traction = enlargement.pressure(self._traction)
+
+    def _jumped(self, problem: AdhesiveProblem) -> AdhesiveStep:
+        """Nearest stable state from the last one; of bodies that come from afar, at the start."""
+        traction = self._traction
+        if traction is None:
+            traction = self._at_first(problem)
+        found = solve_from(problem, self._domain, traction, self._tolerance)
+        if found is None:
+            return AdhesiveStep(released(problem, self._domain), Outcome.PULLED_OFF, math.inf)
+        change = math.inf if self._change(found) > 1 else 1.0
+        return AdhesiveStep(found, _outcome(found), change)
+
+    def _at_first(self, problem: AdhesiveProblem) -> Floats:
+        """Attraction from which the first contact is found [Pa]."""
+        open_gap, constraints = problem.contact.open_gap, problem.contact.constraints
+        if not constraints.free[0] or problem.spring:
+            return np.zeros(open_gap.shape)
+        # Under a force the bodies touch; one that pulls does so after they have come to rest.
+        touching = open_gap - open_gap.min()
+        traction = traction_at(problem, self._domain, touching)
+        if constraints.targets[0] >= 0:
+            return traction
+        at_rest = solve_from(problem.without_force(), self._domain, traction, self._tolerance)
+        return traction if at_rest is None else at_rest.traction
+
+    def _stiff(self, problem: AdhesiveProblem) -> AdhesiveStep:
+        """Contact of a body that does not yield at once, under an approach that does not press."""
+        motion = np.array(problem.contact.constraints.motions)
+        gap = problem.contact.open_gap - self._domain.whole.plane.field(motion)
+        traction = traction_at(problem, self._domain, gap)
+        found = released(problem, self._domain, traction, motion)
+        return AdhesiveStep(found, _outcome(found), 1.0)
+
+    def _change(self, solution: AdhesiveSolution) -> float:
+        force, attraction = self._sum(solution.found.pressure), self._sum(solution.traction)
+        # Where the pull is largest, the force hardly changes, but the attraction does.
+        change = max(
+            abs(force - self._force), ATTRACTION_SHARE * abs(attraction - self._attraction)
+        )
+        largest = max(abs(force), abs(self._force), self._at_touch)
+        return change / (LARGEST_CHANGE * largest) if largest else 0.0
+
+    def _sum(self, pressure: Floats) -> float:
+        """Force of a pressure on the computed cells, with their mirror images [N]."""
+        return float(pressure.sum()) * self._domain.whole.cell_area * self._domain.symmetry_count
+
+
+def _outcome(solution: AdhesiveSolution) -> Outcome:
+    if not solution.converged:
+        return Outcome.NOT_CONVERGED
+    return Outcome.CONVERGED if solution.in_contact.any() else Outcome.NO_CONTACT

@@ -1,0 +1,228 @@
+"""Whole runs of bodies that adhere: cycles, jumps, pull-off, creep, and runs that continue."""
+
+from copy import deepcopy
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from closeness import close_to
+from returned import some
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
+from viscontact.mechanics.state import Outcome
+from viscontact.reference import maugis_dugdale, tabor_number
+from viscontact.simulation.transient.march import March
+from viscontact.simulation.transient.setup import prepare_run
+
+RADIUS, WORK, COMPLIANCE = 1e-3, 0.05, 1e-6
+GEL = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)  # 1/(4 G)
+RANGE = np.cbrt(RADIUS * (WORK * COMPLIANCE) ** 2)  # a Tabor number of 1
+#: Units of force, approach and radius (Maugis 1992).
+FORCE = np.pi * WORK * RADIUS
+MODULUS = 4 / (3 * COMPLIANCE)
+LENGTH = np.cbrt(FORCE * RADIUS / MODULUS)
+DEPTH = LENGTH**2 / RADIUS
+SPHERE = vc.Paraboloid(RADIUS, RADIUS)
+
+
+def grid(cells=40, size=6.0):
+    return vc.Grid((cells, cells), (size * LENGTH, size * LENGTH))
+
+
+def adhesion(law="exponential"):
+    return vc.Adhesion(WORK, range=RANGE, law=law)
+
+
+def cycle(top=1.0, away=-1.4):
+    return vc.ApproachHistory([0.0, 1.0, 2.0], np.array([away, top, away]) * DEPTH)
+
+
+def run(load, times, material=GEL, law="exponential", cells=40, **given):
+    return vc.simulate(
+        *(SPHERE, material, load, grid(cells), times),
+        adhesion=adhesion(law),
+        errors=False,
+        fields="none",
+        **given,
+    )
+
+
+@pytest.fixture(scope="module")
+def loop():
+    return run(cycle(), np.linspace(0.0, 2.0, 21))
+
+
+def pairs(values):
+    return np.reshape(values, (-1, 2))
+
+
+def test_number_of_tabor_is_one():
+    assert tabor_number(RADIUS, COMPLIANCE, WORK, RANGE) == close_to(1.0, rel=1e-12)
+
+
+def test_elastic_cycle_jumps_in_and_off_and_comes_back_on_its_way(loop):
+    assert loop.attrs["event_kind"].splitlines() == ["jump_in", "pull_off"]
+    forces = loop.force.values
+    touching = loop.outcome.values == Outcome.CONVERGED
+    # Between the jumps both ways are one branch.
+    both = touching & touching[::-1]
+    np.testing.assert_allclose(forces[both], forces[::-1][both], rtol=2e-4, atol=1e-4 * FORCE)
+    assert both.sum() > 15
+    before, after = pairs(loop.attrs["event_force"]).T
+    assert (after[0] < before[0], after[1] > before[1]) == (True, True)
+    # Pull-off from the same law on rings: 1.664 π w R.
+    assert loop.attrs["pull_off_force"] == close_to(1.664 * FORCE, rel=3e-3)
+
+
+def test_jumps_are_found_between_given_times(loop):
+    few = run(cycle(), [0.0, 1.0, 2.0])
+    np.testing.assert_allclose(few.attrs["event_times"], loop.attrs["event_times"], rtol=1e-4)
+    assert few.sizes["time"] == 3
+
+
+def test_dugdale_sphere_jumps_in_at_its_range_and_off_where_maugis_ends():
+    # A rigid flat attraction begins at a gap of the range; contact ends at the least approach.
+    exact = maugis_dugdale(RADIUS, COMPLIANCE, WORK, RANGE)
+    found = run(cycle(0.3), [0.0, 2.0], law="dugdale", cells=72)
+    approaches = pairs(found.attrs["event_approach"])
+    assert approaches[0, 0] == close_to(-RANGE, rel=0.02)
+    assert approaches[1, 0] == close_to(exact.last.approach, rel=0.03)
+    assert found.attrs["pull_off_force"] == close_to(-exact.pull_off.force, rel=0.01)
+
+
+def test_work_of_a_cycle_is_what_the_jumps_lose(loop):
+    # No body creeps: what the load has lost is heat of the jumps, a little for this range.
+    lost = float(loop.work[-1] - loop.work[0])
+    assert 0 < lost < 0.05 * FORCE * DEPTH
+
+
+def test_force_beyond_the_pull_off_force_ends_the_run():
+    load = vc.ForceHistory([0.0, 1.0], [0.0, -1.75 * FORCE])
+    found = run(load, np.linspace(0.0, 1.0, 11))
+    assert int(found.outcome[-1]) == Outcome.PULLED_OFF
+    assert float(found.time[-1]) == close_to(1.664 / 1.75, rel=3e-3)
+    assert np.isnan(found.approach[-1])
+    assert float(found.force[-1]) == 0.0
+    held = some(found.outcome.values[:-1])
+    assert all(each == Outcome.CONVERGED for each in held)
+    assert found.attrs["pull_off_force"] == close_to(1.664 * FORCE, rel=3e-3)
+
+
+def test_bodies_without_load_adhere():
+    found = run(vc.step(0.0), [0.0])
+    assert float(found.force[0]) == close_to(0.0, abs=1e-6 * FORCE)
+    assert float(found.contact_area[0]) > 0
+    assert float(found.least_pressure[0]) < 0 < float(found.peak_pressure[0])
+    assert float(found.adhesion_energy[0]) > WORK * float(found.contact_area[0])
+    assert float(found.tensile_area[0]) > 0
+
+
+def test_stage_on_a_soft_spring_jumps_from_force_to_force():
+    stiffness = 2 * FORCE / DEPTH
+    load = vc.ApproachHistory(
+        [0.0, 1.0, 2.0], np.array([-2.2, 0.0, -2.2]) * DEPTH, stage_stiffness=stiffness
+    )
+    found = run(load, [0.0, 1.0, 2.0])
+    assert found.attrs["event_kind"].splitlines() == ["jump_in", "pull_off"]
+    for force, approach, time in zip(
+        found.attrs["event_force"][1::2],
+        found.attrs["event_approach"][1::2],
+        found.attrs["event_times"],
+        strict=True,
+    ):
+        stage = float(load.approach_at(time))
+        assert force == close_to(stiffness * (stage - approach), rel=1e-4)
+    stage = found.stage_position.values
+    np.testing.assert_allclose(stage, load.approach_at(found.time.values))
+
+
+ZENER = vc.Material(vc.Zener(2.5e6, 2.5e6 / 9, 2.5e6 / 9), poisson_ratio=0.5)  # relaxes to GEL
+
+
+def retraction(speed):
+    """Contact that rests for 30 relaxation times, then is withdrawn at a speed [DEPTH/s]."""
+    end = 31 + 3.5 / speed
+    levels = np.array([-1.4, 0.8, 0.8, -2.7]) * DEPTH
+    return vc.ApproachHistory([0.0, 1.0, 31.0, end], levels), end
+
+
+@pytest.mark.slow
+def test_pull_off_of_a_creeping_body_grows_with_speed():
+    pulls = []
+    for speed in (1.0, 10.0, 100.0):
+        load, end = retraction(speed)
+        found = run(load, [0.0, end], ZENER)
+        pulls.append(float(found.attrs["pull_off_force"]) / FORCE)
+    assert pulls == sorted(pulls)
+    assert pulls[0] > 1.7
+    assert pulls[-1] < 10 * 1.664
+
+
+@pytest.fixture(scope="module")
+def creeping():
+    """Run that jumps in and is pulled off, its states, and its restart data after some steps."""
+    problem = contact_problem(
+        indenter=SPHERE,
+        material=vc.Material(vc.Zener(2.5e5, 2.5e5, 2.5e4), poisson_ratio=0.5),
+        load=cycle(-0.4, -2.0),
+        grid=grid(24, 5.0),
+        times=np.linspace(0.0, 2.0, 9),
+        adhesion=adhesion(),
+    )
+    setup, saved, states = prepare_run(problem), {}, []
+    loop = March(setup)
+    for number, state in enumerate(loop):
+        states += [] if state is None else [state]
+        if number % 40 == 5:
+            saved[len(states)] = deepcopy(loop.restart_data())
+    assert [event.kind for state in states for event in state.events] == ["jump_in", "pull_off"]
+    return setup, states, saved
+
+
+def test_continued_run_has_the_same_bits(creeping):
+    setup, whole, saved = creeping
+    done, last = list(saved.items())[-1]
+    for begun, data in ((done, last), next(iter(saved.items()))):
+        rest = [state for state in March(setup, data) if state is not None]
+        for one, other in zip(rest, whole[begun:], strict=True):
+            assert np.array_equal(one.pressure, other.pressure)
+            assert (one.force, one.work, one.events) == (other.force, other.work, other.events)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"load": vc.step(-1e-6), "adhesion": None}, "load: the force must be zero or more"),
+        (
+            {"load": vc.step(approach=1e-6, stage_stiffness=1.0), "adhesion": None},
+            "load.stage_stiffness: a stage on a spring is computed for bodies that adhere",
+        ),
+        ({"grid": None}, "grid: with adhesion no grid is chosen"),
+        ({"grid": grid(8)}, "cells of .* lie across the cohesive zone"),
+        ({"material": ZENER, "adhesion": vc.Adhesion(WORK)}, "adhesion.range: must be given"),
+        ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-5])}, "adhesion: a body that moves"),
+        ({"adhesion": 0.05}, "adhesion must be of kind Adhesion"),
+    ],
+)
+def test_what_is_not_computed_is_refused(given, message):
+    arguments = {
+        "indenter": SPHERE,
+        "material": GEL,
+        "load": vc.step(approach=DEPTH),
+        "grid": grid(),
+        "times": [0.0, 1.0],
+        "adhesion": adhesion(),
+    } | given
+    with pytest.raises(ValueError, match=message):
+        vc.simulate(**arguments)
+
+
+def test_range_left_out_is_the_limit_of_short_ranges():
+    # Johnson, Kendall & Roberts 1971: 3/2 π w R; the shortest range of these cells holds 4 % more.
+    found = vc.simulate(
+        *(SPHERE, GEL, vc.ApproachHistory([0.0, 1.0], [0.2 * DEPTH, -1.2 * DEPTH])),
+        *(grid(80, 4.0), [0.0, 1.0]),
+        adhesion=vc.Adhesion(WORK),
+        errors=False,
+    )
+    assert found.attrs["pull_off_force"] == close_to(1.5 * FORCE, rel=0.06)
