@@ -104,8 +104,9 @@ def test_result_describes_itself(path: Path) -> None:
         for name in (*scalars_of(), *FIELDS, *LINES, "time", "x", "y", "field_time"):
             assert ds[name].attrs["units"]
             assert ds[name].attrs["long_name"]
-        assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged pulled_off"
-        assert ds["outcome"].attrs["flag_values"].tolist() == [0, 1, 2]
+        meanings = "converged no_contact not_converged pulled_off"
+        assert ds["outcome"].attrs["flag_meanings"] == meanings
+        assert ds["outcome"].attrs["flag_values"].tolist() == [0, 1, 2, 3]
         assert ds.attrs["complete"] == 1
         assert ds.attrs["title"] == "µ"
         np.testing.assert_array_equal(ds.x, GRID.x)
