@@ -319,17 +319,17 @@ SCALARS = {
         of="thickening",
     ),
     "least_pressure": _sticking(
-        "Pa", "least pressure, negative in tension", "Least pressure", 41, _ADHERING | Place.FIGURE
+        "Pa", "least pressure, negative in tension", "Least pressure", 51, _ADHERING | Place.FIGURE
     ),
-    "tensile_area": _sticking("m2", "area outside the contact that pulls", "Cohesive zone", 42),
+    "tensile_area": _sticking("m2", "area outside the contact that pulls", "Cohesive zone", 52),
     "adhesion_energy": _sticking(
-        "J", "work that separating the surfaces would take", "Adhesion energy", 43
+        "J", "work that separating the surfaces would take", "Adhesion energy", 53
     ),
     "stability": Variable(
         "1",
         "factor by which a small change of the attraction grows; below 1 if stable",
         label="Stability",
-        rank=44,
+        rank=54,
         of=ADHESION,
     ),
     "stage_position": Variable(
@@ -337,7 +337,7 @@ SCALARS = {
         "position of the stage on whose spring the body hangs",
         label="Stage position",
         places=Place.LOAD,
-        rank=45,
+        rank=55,
         of=STAGE,
     ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
