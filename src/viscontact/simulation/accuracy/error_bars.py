@@ -85,6 +85,10 @@ ZERO_WITHOUT_GRIP = (
 ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
 ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
 
+#: Estimated time error of the pressure that counts only in excess, at the instants that a third run
+#: with divided steps has left out.
+SHOWN_TIME_ERROR = 0.01
+
 
 @dataclass(frozen=True, eq=False)
 class ErrorBars:
@@ -182,8 +186,7 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     singular = moving_maximum(unbounded_peak(history, results)) > 0
     drops, exponents, bends = beside_peak(times, results)
     rises = rises_to_ends(times, results)
-    divided = any(each.divides_steps for each in results)
-    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, bends, divided)
+    return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, bends)
 
 
 def unknown_bars(history: History) -> ErrorBars:
@@ -217,22 +220,30 @@ def _bar(
     part = model.of_neighbours
     nearby = _largest_nearby(cells * over, part) / cells
     relative = np.where(touching, nearby, _largest_nearby(over, part))
-    by_steps = levels.by_steps
-    if not kinds.divided:
-        # What is prescribed does not differ between the grids.
-        differs = between_known(by_cells) > run.problem.solver_error * scale
-        largest = moving_maximum(history["time_error"])
-        # What a step has added to the work keeps its error.
-        added = np.abs(np.diff(levels.values[0], prepend=0.0))
-        kept = np.nancumsum(largest * added) if name == "work" else largest * own
-        estimated = model.of_time_error * np.fmax(kept, largest * own)
-        by_steps = np.fmax(by_steps, np.where(differs, estimated, 0.0))
+    # What is prescribed does not differ between the grids.
+    differs = between_known(by_cells) > run.problem.solver_error * scale
+    part = model.of_left_out if levels.steps_shown.any() else model.of_time_error
+    estimated = part * _estimated_by_steps(name, levels, history)
+    by_steps = np.fmax(levels.by_steps, np.where(differs, estimated, 0.0))
     relative += np.nan_to_num(_quotient(by_steps, scale))
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
     relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     return np.where(np.isnan(own), np.nan, bar)
+
+
+def _estimated_by_steps(name: str, levels: RefinementLevels, history: History) -> Floats:
+    """Changes of a scalar by the time error of the pressure, where no third run has shown it."""
+    own = np.abs(levels.values[0])
+    largest = moving_maximum(history["time_error"])
+    if levels.steps_shown.any():
+        # At the instants that it has left out, those next to them have shown the smaller ones.
+        largest = np.fmax(history["time_error"] - SHOWN_TIME_ERROR, 0.0)
+    # What a step has added to the work keeps its error.
+    added = np.abs(np.diff(levels.values[0], prepend=0.0))
+    kept = np.nancumsum(largest * added) if name == "work" else largest * own
+    return np.where(levels.steps_shown, 0.0, np.fmax(kept, largest * own))
 
 
 def _quotient(error: Floats, scale: Floats) -> Floats:

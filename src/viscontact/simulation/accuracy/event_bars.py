@@ -30,7 +30,8 @@ def segment_end_errors(run: RunSetup, results: list[CoarserResult]) -> Floats:
         for grid in (each for each in grids if each.spacing == divided.spacing):
             apart = np.abs(grid.segment_ends - divided.segment_ends)
             by_steps = DIVIDED_STEP_FACTOR * np.nan_to_num(apart)
-    levels = RefinementLevels((1.0, *(each.spacing for each in grids)), rows, by_steps)
+    spacings = (1.0, *(each.spacing for each in grids))
+    levels = RefinementLevels(spacings, rows, by_steps, np.isfinite(rows).all(axis=0))
     methods = run.problem.solver_error + max(plan.error for plan in run.plans)
     methods += run.problem.surface.splitting_error + run.problem.compliance.inversion_error
     return np.asarray(INSTANTS.of(levels) + levels.by_steps + methods * own)

@@ -31,6 +31,9 @@ class RefinementLevels:
     spacings: tuple[float, ...]  # cell size of each grid, in cells of the run; the run's own first
     values: Floats  # NaN where a grid has none; shape (grids, times)
     by_steps: Floats  # estimated error of the time steps
+    #: Instants at which a third run has shown that error: it has divided the steps that the others
+    #: take as the run does.
+    steps_shown: Bools
 
     @classmethod
     def of(cls, name: str, history: History, results: list[CoarserResult]) -> RefinementLevels:
@@ -38,18 +41,19 @@ class RefinementLevels:
         times, own = history["time"], history[name]
         grids = [each for each in results if not each.divides_steps]
         rows = np.stack([own, *(aligned(name, times, each) for each in grids)])
-        by_steps = np.zeros(len(times))
+        by_steps, shown = np.zeros(len(times)), np.zeros(len(times), dtype=bool)
         for divided in (each for each in results if each.divides_steps):
             for grid, row in zip(grids, rows[1:], strict=True):
                 if grid.spacing == divided.spacing:
                     by_steps = DIVIDED_STEP_FACTOR * np.abs(row - aligned(name, times, divided))
+                    shown = ~np.isnan(by_steps)
         large = np.fmax(history["time_error"] - LARGE_TIME_ERROR, 0.0) * np.abs(own)
         known = np.maximum(by_steps, PART_OF_LARGE * large)
         if name in CUMULATIVE and "heat" in history:
             known = np.where(np.isnan(known), between_known(known), known)
         left_out = np.fmax(_interpolated(times, known), large)
         by_steps = np.where(np.isnan(known), left_out, known)
-        return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
+        return cls((1.0, *(each.spacing for each in grids)), rows, by_steps, shown)
 
     def by_cells(self, order: float) -> Floats:
         """Error from the cells at an order of convergence: the largest over the pairs of grids."""
