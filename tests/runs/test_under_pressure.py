@@ -23,7 +23,7 @@ MAP = np.arange(48.0).reshape(6, 8) * 1e3
 
 def test_cases_agree_with_closed_forms() -> None:
     results = run_cases(fast=True, cases=CASES)
-    assert len(results) == 9
+    assert len(results) == 13
     assert [each.case for each in results if not each.passed] == []
 
 

@@ -95,9 +95,13 @@ TABLE = (
         compare="compare_contact_outlines",
         reported=Reported("pressure", "Outline of the contact", "outlines"),
     ),
-    FigureEntry("contact-area"),
-    _fields("contact-spots", reported=Reported("spots", "Contact spots")),
+    FigureEntry("contact-area", takes=("times", "theory")),
+    FigureEntry("area-pressure", takes=("times", "theory")),
+    _fields(
+        "contact-spots", takes=("times", "theory"), reported=Reported("spots", "Contact spots")
+    ),
     _fields("leak-channel", takes=("times", "along")),
+    _fields("fluid-pressure", takes=("times", "along")),
     _fields("leak-rate", takes=("times", "along")),
     FigureEntry(
         "history",
@@ -144,7 +148,7 @@ TABLE = (
     FigureEntry(
         "friction",
         of="speed",
-        takes=(),
+        takes=("theory",),
         reported=Reported("friction", "Friction coefficient over speed", "friction"),
     ),
     _fields(

@@ -47,6 +47,11 @@ class RoughWaves:
         shortest = self.wave_number[np.searchsorted(sums, (1 - SHARE) * sums[-1])]
         return float(2 * np.pi / (shortest * self.spacing))
 
+    def area_fraction(self, pressure: Floats, modulus: ArrayLike) -> Floats:
+        """A/A0 under a nominal pressure [Pa] on a body of contact modulus E* [Pa]."""
+        slope = np.sqrt(self.slope.sum())
+        return np.asarray(scipy.special.erf(np.sqrt(2) * pressure / (modulus * slope)))
+
     def sums(self, terms: Floats) -> tuple[Floats, float]:
         """Sum of terms over all waves up to each |k|, half of those at it; and of all."""
         of_group = np.bincount(self.group, weights=terms)
@@ -113,9 +118,7 @@ def persson_area(
             "time: the material creeps; give the time for which the pressure is held, in s"
         )
     held = 0.0 if time is None else non_negative("time", time, "s")
-    modulus = 1 / float(compliance(held))
-    slope = np.sqrt(waves.slope.sum())
-    found = scipy.special.erf(np.sqrt(2) * pressures / (modulus * slope))
+    found = waves.area_fraction(pressures, 1 / float(compliance(held)))
     _warn([*_doubts(waves), *_few_spots(found)])
     return float(found) if np.ndim(found) == 0 else np.asarray(found)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -70,6 +71,27 @@ def _hertz(cells: int) -> tuple[Comparison, ...]:
     exact = math.pi * _PRESSURE / (4 * a * _MODULUS) * (2 * a * a - r**2)
     inner = r < 0.8 * a
     return (_field(exact[inner], ds.displacement.values[0][inner]),)
+
+
+def _circle(cells: int, power: int) -> tuple[Comparison, ...]:
+    """Pressure (1 - r²/a²)^power on a circle: at its centre, and the stress below that."""
+    a, count = 1e-3, 2 * cells + 1
+
+    def pressure(x: Floats, y: Floats) -> Floats:
+        inside = 1 - (x**2 + y**2) / a**2
+        return np.asarray(_PRESSURE * np.where(inside > 0, inside**power, 0.0))
+
+    grid = Grid((count, count), (2.2 * a, 2.2 * a))
+    ds = under_pressure(pressure, _BODY, grid, errors=False)
+    centre = (2.0, 4 / 3)[power] * _PRESSURE * a / _MODULUS
+    depths = np.array([0.3e-3, 1e-3, 3e-3])
+    below = section_stresses(ds, depths, y=0.0).stress_zz.values[0, :, cells]
+    z, far = depths, np.sqrt(a**2 + depths**2)
+    shares = 1 - (z / far) ** 3
+    if power:
+        shares = (1 + (z / a) ** 2) * shares - 3 * (z / a) ** 2 * (1 - z / far)
+    found = float(ds.displacement[0, cells, cells])
+    return single(centre, found), _field(-_PRESSURE * shares, below)
 
 
 def _strip(cells: int) -> tuple[Comparison, ...]:
@@ -140,6 +162,26 @@ CASES: tuple[Case, ...] = (
         (Quantity("displacement", "m", 2e-3, 2e-4),),
         (16, 32, 64),
         _hertz,
+    ),
+    Case(
+        "uniform pressure on a circle",
+        "Love 1929",
+        (
+            Quantity("displacement at the centre", "m", 5e-3, 5e-3, has_order=False),
+            Quantity("stress below it", "Pa", 1e-2, 1e-2, has_order=False),
+        ),
+        (16, 32, 64),
+        partial(_circle, power=0),
+    ),
+    Case(
+        "parabolic pressure on a circle",
+        "Love 1929",
+        (
+            Quantity("displacement at the centre", "m", 2e-3, 2e-4),
+            Quantity("stress below it", "Pa", 2e-3, 2e-4),
+        ),
+        (16, 32, 64),
+        partial(_circle, power=1),
     ),
     Case(
         "uniform pressure on a strip",

@@ -17,6 +17,7 @@ from viscontact.verify import (
     line_contact,
     moving_contact,
     periodic,
+    rough_theory,
     steady_motion,
     temperature,
     unloading,
@@ -39,6 +40,7 @@ CASES: tuple[Case, ...] = (
     *steady_motion.CASES,
     *given_pressure.CASES,
     *leakage.CASES,
+    *rough_theory.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.

@@ -77,3 +77,25 @@ def test_rate_of_a_result_is_that_of_its_leakage() -> None:
     assert shown_leakage(found, [last], "y", "leak-rate").time.values.tolist() == [last]
     with pytest.raises(ValueError, match="along must be"):
         shown_leakage(ds, None, "z", "leak-rate")
+
+
+def test_pressure_of_the_fluid_falls_along_the_flow() -> None:
+    ds = synthetic_results.ellipse()
+    shown = leak_map(ds, None, "y", "fluid-pressure")
+    along = np.nanmean(shown.pressure, axis=0)
+    assert along[0] > 0.9
+    assert along[-1] < 0.1
+    assert shown.difference is None
+    assert np.isnan(shown.pressure[shown.touched]).all()
+    panel, scale = vc.plot.fluid_pressure(ds, along="y").axes
+    assert scale.get_ylabel() == "Fluid pressure over its difference [-]"
+    assert "flow along y" in panel.get_title(loc="left")
+
+
+def test_result_with_scalars_of_its_leakage_is_drawn_from_its_gap() -> None:
+    ds = synthetic_results.ellipse()
+    stored = ds.assign(transmissivity=("time", np.ones(ds.sizes["time"])))
+    of_result = shown_leakage(stored, None, "y", "leak-rate")
+    np.testing.assert_array_equal(
+        of_result.transmissivity, shown_leakage(ds, None, "y", "leak-rate").transmissivity
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -17,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.text import Text
 
+import viscontact as vc
 from closeness import close_to
 from returned import some
 from synthetic_results import gripping_sphere, maxwell_pressure, maxwell_sphere, roller
@@ -51,6 +53,30 @@ def legend_texts(axes: Axes) -> list[str]:
 OF_FRICTION = {"stick-map", "traction-profile", "fretting-loop", "slip-history"}
 
 
+#: Figures of contacts on a period.
+OF_PERIODS = {"area-pressure"}
+
+
+@cache
+def pressed_waves() -> xr.Dataset:
+    """Crossed waves under a force that rises."""
+    grid = vc.Grid((16, 16), (1e-3, 1e-3), periodic=True)
+    waves = vc.Waviness(1e-6, wavelength_x=1e-3, wavelength_y=1e-3)
+    body = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vc.AccuracyWarning)
+        return vc.simulate(
+            waves, body, vc.ramp(0.01, 1.0), grid, [0.0, 0.5, 1.0, 2.0], errors=False
+        )
+
+
+def run_for(name: str, sphere: xr.Dataset, gripping: xr.Dataset) -> xr.Dataset:
+    """Result that a figure is for."""
+    if name in OF_PERIODS:
+        return pressed_waves()
+    return gripping if name in OF_FRICTION else sphere
+
+
 # --- every figure ----------------------------------------------------------------------------
 
 
@@ -58,7 +84,7 @@ OF_FRICTION = {"stick-map", "traction-profile", "fretting-loop", "slip-history"}
 def drawn(sphere: xr.Dataset) -> Callable[[str], Figure]:
     """Every figure of the sphere, drawn once; those of friction of one under friction."""
     gripping = gripping_sphere(cells=40)
-    return cache(lambda name: FIGURES[name](gripping if name in OF_FRICTION else sphere))
+    return cache(lambda name: FIGURES[name](run_for(name, sphere, gripping)))
 
 
 @pytest.mark.parametrize("name", sorted(FIGURES))
@@ -174,7 +200,7 @@ def test_times_that_are_no_numbers_are_refused(times: list[float], sphere: xr.Da
     gripping = gripping_sphere(cells=8)
     for name in sorted(FIGURES):
         with pytest.raises(ValueError, match=r"times must be finite"):
-            FIGURES[name](gripping if name in OF_FRICTION else sphere, times=times)
+            FIGURES[name](run_for(name, sphere, gripping), times=times)
 
 
 def test_instants_without_contact_are_refused_by_name(sphere: xr.Dataset) -> None:

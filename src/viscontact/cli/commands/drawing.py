@@ -60,6 +60,13 @@ Style = Annotated[
         "by default colours for a contact of many spots.",
     ),
 ]
+Theory = Annotated[
+    bool | None,
+    typer.Option(
+        "--theory",
+        help="Persson's theory beside the area or friction of a rough contact on a periodic grid.",
+    ),
+]
 
 
 def plot(
@@ -81,6 +88,7 @@ def plot(
     along: Along = None,
     at: At = None,
     style: Style = None,
+    theory: Theory = None,
     seconds: Annotated[
         float | None,
         typer.Option("--seconds", help="Duration of an animation in seconds; 8 by default."),
@@ -96,7 +104,7 @@ def plot(
     from viscontact.cli.results.figures import draw
 
     options: dict[str, str | float | None] = {
-        **{"width": width, "along": along, "at": at, "style": style},
+        **{"width": width, "along": along, "at": at, "style": style, "theory": theory},
         **{"seconds": seconds, "fps": fps},
     }
     draw(directory, figure, times or [], output, options, speeds or [])

@@ -11,8 +11,20 @@ from viscontact.bodies.indenters import Indenter, Paraboloid, Roller, Sphere
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.bodies.materials.material import Material
 from viscontact.drawing.content.along_run import texts_along
-from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Ink, Panel, Units
+from viscontact.drawing.content.panel import (
+    FAINT,
+    FIRST,
+    SECOND,
+    Axis,
+    Curve,
+    Ink,
+    Panel,
+    ShadedRange,
+    Units,
+)
+from viscontact.drawing.content.rough_theory import theory_band, theory_curves
 from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.recorded_theory import sliding_of_theory
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import readable_unit
@@ -25,9 +37,13 @@ _SAMPLES, _ROOM = 60, 2.0
 
 
 def friction_panel(
-    run: xr.Dataset, units: Units = readable_unit, reference: xr.Dataset | None = None
+    run: xr.Dataset,
+    units: Units = readable_unit,
+    reference: xr.Dataset | None = None,
+    *,
+    theory: bool = False,
 ) -> Panel:
-    """Panel of a result over speed in order, first, a reference beside it, and the limits."""
+    """Panel of a result over speed in order, first, a reference beside it, limits and theory."""
     positive = run[NAME].values[run[NAME].values > 0]
     lowest, highest = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
     speeds = limit_speeds(run)
@@ -37,11 +53,18 @@ def friction_panel(
         if ((limit > lowest) & (limit < highest)).any()
     ]
     others = [] if reference is None else [_curve(reference, SECOND)]
+    bands: tuple[ShadedRange, ...] = ()
+    if theory:
+        band = theory_band(sliding_of_theory(run, "friction"))
+        bands, others = (band,), [*others, *theory_curves(band)]
+        lowest = min(lowest, float(band.low.min()) / _ROOM)
+        highest = max(highest, float(band.high.max()) * _ROOM)
     variable = SCALARS[NAME]
     return Panel(
         Axis("Speed", units("m/s", speeds), scale="log"),
         Axis(variable.label, units(variable.units), (lowest, highest), "log"),
         (_curve(run, FIRST), *others, *limits),
+        bands=bands,
         name=NAME,
     )
 

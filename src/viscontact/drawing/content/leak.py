@@ -34,6 +34,8 @@ class LeakMap:
     touched: Bools
     flow: Floats  # over the largest; NaN where nothing flows
     gap: Floats  # [m]
+    pressure: Floats  # of the fluid over its difference; NaN outside the channels
+    difference: float | None  # of the pressure, if the case names one [Pa]
     constriction: tuple[float, float] | None  # place of the critical gap [m]
     note: str
 
@@ -67,7 +69,9 @@ def leak_map(results: xr.Dataset, times: ArrayLike | None, along: str, figure: s
     gap = np.where(np.isfinite(found.gap), found.gap, np.nan)
     return LeakMap(
         f"{axis.place(float(stored[index]))}, flow along {along}",
-        *(grid.x, grid.y, found.touched, np.where(flow > 0, flow, np.nan), gap, place, note),
+        *(grid.x, grid.y, found.touched, np.where(flow > 0, flow, np.nan), gap),
+        *(fields["fluid_pressure"], leakage_settings(results).get("pressure_difference")),
+        *(place, note),
     )
 
 
@@ -78,7 +82,7 @@ def shown_leakage(
     if along not in ("x", "y"):
         raise ValueError(f"{figure}: along must be 'x' or 'y', got {along!r}")
     axis = run_axis(results)
-    is_found = "transmissivity" in results
+    is_found = "percolates" in results
     stored = axis.values(results) if is_found else field_times(results, figure)
     chosen = np.arange(stored.size)
     if times is not None:

@@ -22,9 +22,8 @@ def theory_panels(theory: xr.Dataset, results: xr.Dataset | None) -> tuple[Panel
     is_log = every.max() > 10 * every.min()
     x = Axis("Speed", unit, scale="log" if is_log else "linear")
     area = [Curve(speeds, theory["area_fraction"].values, "theory", SECOND, "dashed")]
-    low, high = theory["friction_coefficient"].values, theory["friction_coefficient_upper"].values
-    name = f"theory, γ = {float(theory.attrs.get('gamma', 0.5)):g} to 1"
-    friction = [Curve(speeds, low, "", SECOND, "dashed"), Curve(speeds, high, "", SECOND, "dashed")]
+    band = theory_band(theory)
+    friction = theory_curves(band)
     if results is not None:
         area.insert(0, _computed_area(results))
         where, values = results["speed"].values, results["friction_coefficient"].values
@@ -37,10 +36,23 @@ def theory_panels(theory: xr.Dataset, results: xr.Dataset | None) -> tuple[Panel
             x,
             Axis("Friction coefficient", unitless, scale="log"),
             tuple(friction),
-            bands=(ShadedRange(speeds, low, high, name, FAINT),),
+            bands=(band,),
             name="friction",
         ),
     )
+
+
+def theory_band(theory: xr.Dataset) -> ShadedRange:
+    """Friction coefficient of the theory between both reductions of its energy."""
+    low, high = theory["friction_coefficient"].values, theory["friction_coefficient_upper"].values
+    name = f"theory, γ = {float(theory.attrs.get('gamma', 0.5)):g} to 1"
+    return ShadedRange(theory["speed"].values, low, high, name, FAINT)
+
+
+def theory_curves(band: ShadedRange) -> list[Curve]:
+    """Edges of the band of the theory."""
+    edges = ((band.low, band.name), (band.high, ""))
+    return [Curve(band.x, edge, name, SECOND, "dashed") for edge, name in edges]
 
 
 def _computed_area(results: xr.Dataset) -> Curve:

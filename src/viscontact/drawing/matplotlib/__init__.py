@@ -26,7 +26,7 @@ from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indente
 from viscontact.drawing.matplotlib.geometry.indenter_figure import indenter
 from viscontact.drawing.matplotlib.geometry.load_drawing import draw_load
 from viscontact.drawing.matplotlib.geometry.power_spectrum import draw_power_spectrum
-from viscontact.drawing.matplotlib.histories.contact_area import contact_area
+from viscontact.drawing.matplotlib.histories.contact_area import area_pressure, contact_area
 from viscontact.drawing.matplotlib.histories.exact import exact
 from viscontact.drawing.matplotlib.histories.history import compare_histories, history
 from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
@@ -61,7 +61,7 @@ from viscontact.drawing.matplotlib.pressure.contact_outline import (
 from viscontact.drawing.matplotlib.pressure.contact_spots import contact_spots
 from viscontact.drawing.matplotlib.pressure.deformed_surface import deformed_surface
 from viscontact.drawing.matplotlib.pressure.given_pressure import given_pressure
-from viscontact.drawing.matplotlib.pressure.leak_channel import leak_channel
+from viscontact.drawing.matplotlib.pressure.leak_channel import fluid_pressure, leak_channel
 from viscontact.drawing.matplotlib.pressure.pressure_map import compare_pressure_maps, pressure_map
 from viscontact.drawing.matplotlib.pressure.pressure_radial import pressure_radial
 from viscontact.drawing.matplotlib.pressure.pressure_surface import (
@@ -88,6 +88,7 @@ __all__ = [
     "Animation",
     "ResultPlots",
     "animation",
+    "area_pressure",
     "compare_contact_outlines",
     "compare_creep",
     "compare_histories",
@@ -110,6 +111,7 @@ __all__ = [
     "fitted_indentation",
     "fitted_records",
     "fitted_series",
+    "fluid_pressure",
     "fretting_loop",
     "friction",
     "given_pressure",

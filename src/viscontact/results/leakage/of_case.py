@@ -54,6 +54,11 @@ def leakage_lines(ds: xr.Dataset) -> list[str]:
     return lines
 
 
+def gaps_in_words(ds: xr.Dataset) -> list[str]:
+    """Gaps of the leakage at the last stored instant, without its rate, one for each direction."""
+    return [line.partition(", leak rate")[0] for line in leakage_lines(ds)]
+
+
 def _in_words(row: xr.Dataset) -> str:
     if not float(row["percolates"][-1]):
         return "closed, no channel leads through"
@@ -63,4 +68,4 @@ def _in_words(row: xr.Dataset) -> str:
     if not np.isfinite(rate):
         return text
     spread = f"{100 * error / rate:.2g} %" if error < rate else f"a factor {1 + error / rate:.2g}"
-    return f"{text}, leak rate {rate * 1e9:.3g} mm³/s (error {spread})"
+    return f"{text}, leak rate {format_quantity(rate, 'm3 s-1', 3)} (error {spread})"

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from viscontact.bodies.surfaces import Surface
 from viscontact.results.persson import rough_waves
 from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_theory import recorded_surface
 
 #: Equal waves that have the spectrum of a map, from which on it counts as rough.
 _MANY = 20.0
@@ -25,14 +25,13 @@ class MapWaves:
 
 def map_waves(ds: xr.Dataset) -> MapWaves | None:
     """Waves of a map on a period; None on other grids, and for a body of a few waves."""
+    if "displacement" not in ds:
+        return None
+    try:
+        waves = rough_waves(recorded_surface(ds, "leakage"), 0)
+    except ValueError:  # no period, a body that ends, or a flat one
+        return None
     grid = recorded_grid(ds)
-    if not all(grid.periodic) or min(grid.shape) < 2 or "displacement" not in ds:
-        return None
-    # The undeformed gap, but for the approach.
-    height = np.asarray(ds["displacement"].values[-1] - ds["gap"].values[-1], dtype=np.float64)
-    if not np.isfinite(height).all() or np.ptp(height) == 0:
-        return None
-    waves = rough_waves(Surface(height, grid.cell_size, periodic=True), 0)
     squares = waves.slope / waves.wave_number**2
     if squares.sum() ** 2 < _MANY * np.square(squares).sum():
         return None

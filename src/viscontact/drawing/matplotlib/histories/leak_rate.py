@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from viscontact.drawing.content.leak import leak_panels, shown_leakage
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
+from viscontact.drawing.matplotlib.layout.panels import stacked_panels
 
 
 def leak_rate(
@@ -61,12 +61,8 @@ def leak_rate(
     leak = shown_leakage(results, times, along, "leak-rate")
     panels = leak_panels(leak, along)
     wide = page_width(width, style.ONE_COLUMN)
-    figure = style.new_figure(wide, 1.15 * wide)
-    both = figure.subplots(2, 1, sharex=True)
-    for axes, panel in zip(both, panels, strict=True):
-        draw_panel(axes, panel)
-        if panel.y.scale == "log":
+    figure = stacked_panels(panels, wide, 1.15 * wide)
+    for axes in figure.axes:
+        if axes.get_yscale() == "log":
             axes.yaxis.set_minor_formatter(NullFormatter())
-    both[0].set_xlabel("")
-    style.add_legend_below(figure, *named_keys(panels[1].curves))
     return figure

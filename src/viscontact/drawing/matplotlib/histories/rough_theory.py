@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from viscontact.drawing.content.rough_theory import theory_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
+from viscontact.drawing.matplotlib.layout.panels import stacked_panels
 
 
 def rough_theory(
@@ -49,11 +49,6 @@ def rough_theory(
     """
     panels = theory_panels(theory, results)
     wide = page_width(width, style.ONE_COLUMN)
-    figure = style.new_figure(wide, 1.15 * wide)
-    both = figure.subplots(2, 1, sharex=True)
-    for axes, panel in zip(both, panels, strict=True):
-        draw_panel(axes, panel)
-    both[0].set_xlabel("")
-    both[0].set_ylim(0.0, None)
-    style.add_legend_below(figure, *named_keys(panels[0].curves))
+    figure = stacked_panels(panels, wide, 1.15 * wide)
+    figure.axes[0].set_ylim(0.0, None)
     return figure

@@ -16,7 +16,11 @@ from viscontact.results.shown_scalars import has_friction
 
 
 def friction(
-    results: xr.Dataset, *, axes: Axes | None = None, width: Width | None = None
+    results: xr.Dataset,
+    *,
+    theory: bool = False,
+    axes: Axes | None = None,
+    width: Width | None = None,
 ) -> Figure:
     """Draw the friction coefficient over the speed, with the limits of slow and fast motion.
 
@@ -24,6 +28,9 @@ def friction(
     ----------
     results : xarray.Dataset
         From `viscontact.steady`.
+    theory : bool, optional
+        Draw Persson's theory as a band beside it, for a rough body on a grid that is periodic along
+        both axes; it is no error bar.
     axes : matplotlib.axes.Axes, optional
         Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
@@ -58,7 +65,7 @@ def friction(
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
         axes = style.new_figure(wide, 0.7 * wide).subplots()
-    panel = friction_panel(results.sortby("speed"))
+    panel = friction_panel(results.sortby("speed"), theory=theory)
     draw_panel(axes, panel)
     axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
     handles, labels = named_keys(panel.curves)

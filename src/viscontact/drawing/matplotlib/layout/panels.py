@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -76,6 +76,20 @@ def grid_of_panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
     for axes in panels[first:count]:
         axes.tick_params(labelbottom=True)
     return figure, panels[:count]
+
+
+def stacked_panels(panels: Sequence[Panel], width: float, height: float) -> Figure:
+    """Figure of a width and height [inch] with panels over a common axis, and one legend below."""
+    figure = style.new_figure(width, height)
+    both = figure.subplots(len(panels), 1, sharex=True)
+    for axes, panel in zip(both, panels, strict=True):
+        draw_panel(axes, panel)
+        if axes is not both[-1]:
+            axes.set_xlabel("")
+    named = next((panel for panel in panels if any(c.name for c in panel.curves)), None)
+    if named is not None:
+        style.add_legend_below(figure, *named_keys(named.curves))
+    return figure
 
 
 def draw_panel(axes: Axes, panel: Panel) -> list[ErrorBand]:

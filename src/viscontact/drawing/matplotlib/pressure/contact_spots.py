@@ -14,7 +14,11 @@ from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 
 
 def contact_spots(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    theory: bool = False,
+    width: Width | None = None,
 ) -> Figure:
     """Draw how many contact spots are as large as an area or larger.
 
@@ -25,6 +29,9 @@ def contact_spots(
     times : array_like, optional
         Instants [s], or speeds [m/s]; the nearest stored ones are drawn and named. By default
         five, from the first in contact to the last.
+    theory : bool, optional
+        State the real over the nominal area by Persson's theory beside it, on a grid that is
+        periodic along both axes: for elastic bodies, or under a force that is held.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -32,7 +39,8 @@ def contact_spots(
     -------
     matplotlib.figure.Figure
         Number of spots over their area, by counting cells; the legend states the number of all
-        spots and the real over the nominal area, as `viscontact.contact_spots` defines them.
+        spots and the real over the nominal area, as `viscontact.contact_spots` defines them. The
+        heading names the gaps of the leakage at the last stored instant, if the case has one.
 
     Raises
     ------
@@ -48,7 +56,7 @@ def contact_spots(
     >>> contact_spots(ds).axes[0].get_ylabel()
     'Spots of this area or larger [-]'
     """
-    panel = spots_panel(results, times, "contact-spots")
+    panel = spots_panel(results, times, "contact-spots", theory=theory)
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.4)
     axes = figure.subplots()
     draw_panel(axes, panel)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.drawing.content.given_pressure import pressure_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
+from viscontact.drawing.matplotlib.layout.panels import stacked_panels
 
 
 def given_pressure(
@@ -55,11 +55,4 @@ def given_pressure(
     """
     panels = pressure_panels(results, times, along, "given-pressure")
     wide = page_width(width, style.ONE_COLUMN)
-    figure = style.new_figure(wide, wide)
-    both = figure.subplots(2, 1, sharex=True)
-    for axes, panel in zip(both, panels, strict=True):
-        draw_panel(axes, panel)
-    both[0].set_xlabel("")
-    style.add_heading(both[0], panels[0].title)
-    style.add_legend_below(figure, *named_keys(panels[1].curves))
-    return figure
+    return stacked_panels(panels, wide, wide)
