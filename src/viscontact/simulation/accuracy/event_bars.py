@@ -62,8 +62,9 @@ def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, fl
     # The run's own values are not among them: the coarser grids tell how far it is off, too.
     rows = np.array([each.pull_off for each in grids]).T.reshape(2, -1, 1)
     spacings = tuple(each.spacing for each in grids)
+    shown = np.isfinite(rows).all(axis=(0, 1))
     force, time = (
-        float(PULL_OFF.of(RefinementLevels(spacings, row, np.zeros(1)))[0]) for row in rows
+        float(PULL_OFF.of(RefinementLevels(spacings, row, np.zeros(1), shown))[0]) for row in rows
     )
     return {"pull_off_force_error": force, "pull_off_time_error": time}
 
