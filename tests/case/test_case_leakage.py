@@ -15,6 +15,8 @@ from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.report import write_report
 from viscontact.results.leakage.of_case import case_leakage
+from viscontact.results.shown_scalars import shown_scalars
+from viscontact.results.variables import Place
 from viscontact.studies.case_values import result_of
 from viscontact.studies.scalars import require_fluid
 
@@ -144,6 +146,10 @@ def test_scalars_are_those_of_the_stored_instants(tmp_path: Path) -> None:
             assert np.isnan(ds[name][~stored]).all()
         np.testing.assert_allclose(ds.leak_rate_error[stored], found.leak_rate_error, rtol=1e-4)
         assert (np.diff(ds.leak_rate[stored]) < 0).all()  # creep closes the channels
+        facts = shown_scalars(ds, Place.FACTS)
+        assert {"leak_rate", "critical_gap"} <= set(facts)
+        undriven = ds.assign(leak_rate=ds.leak_rate * np.nan)
+        assert "leak_rate" not in shown_scalars(undriven, Place.FACTS)
 
 
 def test_flow_along_both_axes_has_no_single_scalar(tmp_path: Path) -> None:

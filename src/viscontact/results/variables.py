@@ -282,12 +282,12 @@ SCALARS = {
     "transmissivity_error": _leak("m3", "error of the transmissivity, by two discretisations"),
     "leak_rate": _leak(
         *("m3 s-1", "volume of fluid that leaks in a unit of time", 41, "Leak rate"),
-        Place.KEY | Place.CARD,
+        Place.KEY | Place.CARD | Place.FACTS,
     ),
     "leak_rate_error": _leak("m3 s-1", "error of the leak rate"),
     "critical_gap": _leak(
         *("m", "gap at the narrowest place of the widest channel", 42, "Critical gap"),
-        Place.KEY | Place.CARD,
+        Place.KEY | Place.CARD | Place.FACTS,
     ),
     "temperature": Variable(
         "K",

@@ -19,6 +19,7 @@ from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.results.leakage.leakage import leakage
 from viscontact.results.leakage.of_case import leakage_settings
 from viscontact.results.run_axis import run_axis
+from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_quantity, time_labels
 from viscontact.units.parsing import parse_quantity
 
@@ -58,7 +59,8 @@ def _quantity(name: str, text: str) -> float:
     try:
         return parse_quantity(text, _DIMENSIONS[name])
     except ValueError as error:
-        refuse(f"{_option(name)}: {error}")
+        example = DIMENSIONS["viscosity"].example  # of a solid
+        refuse(f"{_option(name)}: {str(error).replace(example, '1 mPa s')}")
 
 
 def _option(name: str) -> str:
