@@ -132,7 +132,9 @@ class OverTime(Analysis[RunSetup, March]):
 
     def event_attributes(self, events: Sequence[ContactEvent]) -> dict[str, Any]:
         """Attributes of the events of bodies that adhere; none of others."""
-        return {} if self.contact.adhesion is None else contact_event_attributes(events)
+        if self.contact.adhesion is None:
+            return {}
+        return contact_event_attributes(events, self.attributes)
 
     @property
     def longest_creep(self) -> float:

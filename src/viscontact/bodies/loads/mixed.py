@@ -62,8 +62,8 @@ class MixedHistory(LoadHistory):
     Raises
     ------
     ValueError
-        If the numbers do not fit together, the times do not increase from 0, a force is negative,
-        or the load jumps.
+        If the numbers do not fit together, the times do not increase from 0, or the load
+        jumps.
 
     Examples
     --------
@@ -127,9 +127,6 @@ class MixedHistory(LoadHistory):
         for time, control, begin, end in zip(
             self.times, self.controls, self.begins, self.ends, strict=False
         ):
-            if control == "force" and min(begin, end) < 0:
-                lowest = format_quantity(min(begin, end), "N", 6)
-                raise ValueError(f"force must be zero or more, got {lowest}")
             if control == before[0] and not np.isclose(begin, before[1], rtol=1e-9, atol=0.0):
                 unit = "N" if control == "force" else "m"
                 raise ValueError(
@@ -205,6 +202,17 @@ class MixedHistory(LoadHistory):
         return max(0.0, float(self.level_at(self.times).max()))
 
     @property
+    def least_force(self) -> float:
+        """Least prescribed force [N]."""
+        of = zip(self.controls, self.begins, self.ends, strict=True)
+        return min((min(b, e) for each, b, e in of if each == "force"), default=0.0)
+
+    @property
+    def stage_stiffness(self) -> float | None:  # type: ignore[override]
+        """Stiffness of the spring of the stage of its program [N/m]; None without one."""
+        return None if self.program is None else self.program.stage_stiffness
+
+    @property
     def kinks(self) -> Floats:
         """Begin of the first segment, and ends of all [s]."""
         return np.array(self.times)
@@ -225,6 +233,8 @@ class MixedHistory(LoadHistory):
     def _maximum(self, control: Control) -> float:
         of = zip(self.controls, self.begins, self.ends, strict=True)
         largest: float = max((max(b, e) for each, b, e in of if each == control), default=0.0)
+        if largest <= 0 and control == "force":  # it only pulls
+            largest = -self.least_force
         return largest if largest > 0 else 1.0
 
 

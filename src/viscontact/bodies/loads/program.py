@@ -15,7 +15,7 @@ from viscontact.bodies.loads.program_sentences import (
 )
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, positive, store
+from viscontact.units.numbers import check_fields, finite, positive, store
 
 #: Units of what a segment prescribes.
 CONTROL_UNITS: dict[Control, str] = {"force": "N", "approach": "m"}
@@ -154,6 +154,9 @@ class LoadProgram:
         along that axis is free [m].
     tilt_x, tilt_y : float or None
         Slopes along x and y throughout; None lets that tilt go free [rad].
+    stage_stiffness : float, optional
+        Move, retract and height are those of a stage on which the body hangs by a spring, as in
+        `ApproachHistory` [N/m].
 
     Raises
     ------
@@ -174,6 +177,9 @@ class LoadProgram:
     eccentricity_y: float = field(default=0.0, metadata={"unit": "m"})
     tilt_x: float | None = field(default=0.0, metadata={"unit": "rad"})
     tilt_y: float | None = field(default=0.0, metadata={"unit": "rad"})
+    stage_stiffness: float | None = field(
+        default=None, metadata={"unit": "N/m", "recorded": "if given"}
+    )
 
     def __post_init__(self) -> None:
         given = [self.segments] if isinstance(self.segments, str) else self.segments
@@ -206,6 +212,7 @@ class LoadProgram:
             name: finite(name, getattr(self, name), "m")
             for name in ("eccentricity_x", "eccentricity_y")
         }
+        check_fields(self, "stage_stiffness")
         store(self, segments=tuple(segments), stop=tuple(conditions), **tilts, **places)
         self._refuse_eccentric_approach()
 

@@ -277,10 +277,11 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     @property
     def _attributes(self) -> dict[str, Any]:
-        events = contact_event_attributes(self._events) if self._has_events else {}
+        own = self._contents.attributes
+        events = contact_event_attributes(self._events, own) if self._has_events else {}
         return {
-            **events,  # without the errors that the attributes of a finished run have
-            **self._contents.attributes,
+            **own,
+            **events,
             "complete": np.int32(self._complete),
             "warnings": "\n".join(self._warnings),
             "grid_enlarged": "\n".join(self._enlarged),

@@ -233,6 +233,8 @@ def _coarser_run(
         ratios = spacing, spacing
         grid = coarser_grid(run.grid, ratios, parity)
         coarse = run.on(aligned_along(grid, run.grid, motion))
+    if run.law is not None:  # a run that ends where its bodies are pulled off may end earlier
+        times = np.union1d(times, run.problem.end)
     problem = replace(
         run.problem, grid=coarse.grid, times=times, kept=NO_FIELDS, step_ratio=float(step_ratio)
     )

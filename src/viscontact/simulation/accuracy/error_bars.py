@@ -154,7 +154,7 @@ def error_bars_from(
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
-    attributes = {**event_errors(run, ends), **pull_off_errors(run, found)}
+    attributes = pull_off_errors(run, found) or event_errors(run, ends)
     return ErrorBars(values, warnings, attributes)
 
 

@@ -11,7 +11,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
-from viscontact.bodies.loads import LoadHistory, MixedHistory
+from viscontact.bodies.loads import LoadHistory
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -55,11 +55,6 @@ def _refusals(problem: Problem) -> Iterator[str]:
         )
     if problem.friction is not None:
         yield "adhesion: friction is not supported with adhesion; leave one of them out"
-    if isinstance(load, MixedHistory):
-        yield (
-            "adhesion: load programs are not supported with adhesion; prescribe the force or the "
-            "approach throughout"
-        )
     if not isinstance(problem.grid, Grid):
         yield (
             "grid: with adhesion no grid is chosen by the run; give one whose cells resolve the "

@@ -151,7 +151,9 @@ class AdhesiveContact:
         change = max(
             abs(force - self._force), ATTRACTION_SHARE * abs(attraction - self._attraction)
         )
-        largest = max(abs(force), abs(self._force), self._at_touch)
+        # On a rough surface the force is the small difference of pressure and attraction.
+        pulled = ATTRACTION_SHARE * max(attraction, self._attraction)
+        largest = max(abs(force), abs(self._force), self._at_touch, pulled)
         return change / (LARGEST_CHANGE * largest) if largest else 0.0
 
     def _sum(self, pressure: Floats) -> float:

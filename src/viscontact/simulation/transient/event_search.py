@@ -23,9 +23,9 @@ from viscontact.bodies.loads import Condition, MixedHistory
 from viscontact.bodies.loads.program_sentences import SLIDING
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
-from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP, Problem
 from viscontact.mechanics.state import ContactState, Outcome
-from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
+from viscontact.mechanics.time_integration.adaptive_steps import MIN_STEP_FRACTION, AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.simulation.transient.frictional_contact import SlipTrial, frictional_contact
@@ -33,7 +33,7 @@ from viscontact.simulation.transient.march import domain_of, not_converged, refu
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
-from viscontact.simulation.transient.stepper import Stepper, TrialStep
+from viscontact.simulation.transient.stepper import Stepper, StepTooLongError, TrialStep
 from viscontact.units.formatting import format_quantity
 
 #: Error of the instant of an event that its search leaves, as a part of the step.
@@ -105,6 +105,9 @@ class EventSearch:
             course.refuse_pull()
             first = len(self.states) - 1
             met = self._march_segment()
+            if self._state.outcome is Outcome.PULLED_OFF:
+                course.end_with(self._state)
+                break
             if met is None and course.segment.until is not None:
                 raise EventError(never_happens(course, self.states[first:]))
             course.finish(self._state, met)
@@ -118,11 +121,19 @@ class EventSearch:
         """March up to the end of the segment that follows, or to the first condition met."""
         history, begin, end = self._course.history(), self._course.begin, self._course.planned_end
         self._stepper.continue_under(history)
-        steps = self._given_steps(begin, end) if self._step_ends else self._adaptive(history, end)
+        fixed = self._step_ends is not None and self._run.law is None
+        steps = self._given_steps(begin, end) if fixed else self._adaptive(history, end)
         while (step := steps.next_step()) is not None:
-            solved = self._solve(step)
-            if not steps.accept_step(solved.trial.error.relative):
+            try:
+                solved = self._solve(step)
+            except StepTooLongError as found:
+                steps.accept_step(0.0, found.change)
                 continue
+            if not steps.accept_step(solved.trial.error.relative, solved.trial.change):
+                continue
+            if solved.state.outcome is Outcome.PULLED_OFF:
+                self._accept(solved)
+                return None
             solved, met = self._first_event(solved)
             self._accept(solved)
             if met is not None:
@@ -166,7 +177,10 @@ class EventSearch:
         stops = self._stops[self._stops < end]
         surface = self._run.problem.surface
         load = replace(self._run.problem, load=history).contact_load
-        steps = AdaptiveSteps(request, stops, load, surface.creep, clocks=surface.clocks)
+        least = MIN_STEP_FRACTION if self._run.law is None else SHORTEST_ADHESIVE_STEP
+        steps = AdaptiveSteps(
+            *(request, stops, load, surface.creep), clocks=surface.clocks, least=least
+        )
         last = self._last
         begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}
         steps.restore({**begun, "step": asdict(last)})
@@ -217,7 +231,8 @@ class EventSearch:
             return _excess(condition, self._solve(_step_to(time)).state)
 
         def _step_to(time: float) -> TimeStep:
-            return TimeStep(time, time - begin, time, step.smooth)
+            # Part of a step that has been solved: a jump within it is one.
+            return TimeStep(time, time - begin, time, step.smooth, is_shortest=True)
 
         tolerance = self._event_tolerance * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
@@ -277,6 +292,8 @@ def _excess(condition: Condition, state: ContactState) -> float:
         return state.slip_fraction - 1 or math.ulp(0.0)  # above 0 where all cells slip
     if condition.scalar != "contact":
         return float(getattr(state, condition.scalar)) - condition.value
+    if state.least_pressure is not None:  # bodies that adhere touch under forces of any sign
+        return 1.0 if state.outcome is Outcome.CONVERGED else -1.0
     # Force and clearance have different units; only the sign counts, and zero is between them.
     if state.outcome is Outcome.NO_CONTACT:
         return -max(float(state.gap.min()), 0.0) - math.ulp(0.0)  # below 0 by rounding

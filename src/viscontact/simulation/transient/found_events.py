@@ -76,7 +76,8 @@ def _search(
     assert isinstance(problem.load, MixedHistory)
     assert problem.load.program is not None
     instants = None if problem.adaptive else problem.instants
-    course = ProgramCourse(problem.load.program, latest)
+    adheres = problem.adhesion is not None
+    course = ProgramCourse(problem.load.program, latest, may_pull=adheres)
     search = EventSearch(
         replace(problem, grid=grid),
         course,

@@ -54,6 +54,9 @@ from viscontact.units.formatting import format_quantity
 #: Growth of the largest pressure since the last check for corners that calls for another [-].
 PEAK_CHECK_RATIO = 1.1
 
+#: Force of bodies that adhere, over that without signs, below which it has no place [-].
+NO_FORCE = 1e-6
+
 #: Most by which the work of a step differs from that of the mean loads, over the product of the
 #: changes of load and approach [-].
 MOST_OF_CHANGES = 0.25
@@ -114,8 +117,10 @@ class Observer:
         moved |= self._run.problem.clock_scalars(step.time)
         if self._run.law is not None:
             moved |= adhesion_scalars(self._run, solution)
-        if self._run.problem.load.stage_stiffness is not None:
-            moved["stage_position"] = point.approach
+        spring = self._run.problem.load.stage_stiffness
+        if spring is not None:
+            deflected = float(solution.motion[0] + solution.resultants[0] / spring)
+            moved["stage_position"] = deflected if point.approach is None else point.approach
         # The surface takes up the work of the load and that of the motion.
         self._work -= 0.0 if self._held else self._motion.added
         self._cycles.record_work(step, self._work + self._motion.work)
@@ -324,6 +329,9 @@ def _state(
     touching = bool(solution.in_contact.any()) if adheres else force > 0
     # Along its period a surface has no centre from which the force could be offset.
     centred_x, centred_y = (touching and not repeats for repeats in rim.grid.periodic)
+    # Pressure and attraction that cancel have a moment, but no place where a force acts.
+    borne = float(np.abs(solution.pressure).sum()) * rim.grid.cell_area if adheres else 0.0
+    is_offset = abs(force) > NO_FORCE * borne
     peak = max(float(solution.pressure.max()), 0.0)
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak if peak > 0 else 0.0) if touching else 0.0
@@ -337,8 +345,8 @@ def _state(
         line_load=load,
         grid=rim.grid,
         force=force,
-        eccentricity_x=moment_x / force if centred_x else math.nan,
-        eccentricity_y=moment_y / force if centred_y else math.nan,
+        eccentricity_x=moment_x / force if centred_x and is_offset else math.nan,
+        eccentricity_y=moment_y / force if centred_y and is_offset else math.nan,
         approach=float(solution.motion[0]) if has_datum else math.nan,
         tilt_x=float(solution.motion[1]),
         tilt_y=float(solution.motion[2]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -61,21 +61,38 @@ def event_attributes(
     }
 
 
-def contact_event_attributes(events: Sequence[ContactEvent]) -> dict[str, Any]:
-    """Return where bodies that adhere came into contact and lost it, and the largest pull."""
+def contact_event_attributes(
+    events: Sequence[ContactEvent], described: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return where bodies that adhere came into contact and lost it, and the largest pull.
+
+    `described` are the attributes of the run, with the events of a load program if it has one.
+    """
     pulls = [event for event in events if event.kind == "pull_off"]
     largest = max(pulls, key=lambda event: event.pull, default=None)
+    unknown = (math.nan, math.nan)
+    program = zip(
+        described.get("event_times", ()),
+        described.get("event_time_errors", ()),
+        str(described.get("events", "")).splitlines(),
+        strict=True,
+    )
+    rows = [(time, error, line, "condition", unknown, unknown) for time, error, line in program]
+    for event in events:
+        row = (event.time, math.nan, _event_line(event), event.kind, event.force, event.approach)
+        rows.append(row)
+    rows.sort(key=lambda row: row[0])
     return {
-        "events": "\n".join(map(_event_line, events)),
-        "event_times": [event.time for event in events],
-        "event_time_errors": [math.nan] * len(events),
-        "event_kind": "\n".join(event.kind for event in events),
-        "event_force": [force for event in events for force in event.force],
-        "event_approach": [approach for event in events for approach in event.approach],
+        "events": "\n".join(row[2] for row in rows),
+        "event_times": [row[0] for row in rows],
+        "event_time_errors": [row[1] for row in rows],
+        "event_kind": "\n".join(row[3] for row in rows),
+        "event_force": [force for row in rows for force in row[4]],
+        "event_approach": [approach for row in rows for approach in row[5]],
         "pull_off_force": math.nan if largest is None else largest.pull,
-        "pull_off_force_error": math.nan,
+        "pull_off_force_error": described.get("pull_off_force_error", math.nan),
         "pull_off_time": math.nan if largest is None else largest.pull_time,
-        "pull_off_time_error": math.nan,
+        "pull_off_time_error": described.get("pull_off_time_error", math.nan),
     }
 
 

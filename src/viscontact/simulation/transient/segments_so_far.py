@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from viscontact.bodies.loads import Condition, LoadProgram, MixedHistory, Segment
 from viscontact.bodies.loads.history import Control
@@ -25,8 +26,15 @@ class ProgramCourse:
 
     # `lengths` are longest durations of the segments in place of those of the program [s].
     def __init__(
-        self, program: LoadProgram, latest: float, lengths: Sequence[float] | None = None
+        self,
+        program: LoadProgram,
+        latest: float,
+        lengths: Sequence[float] | None = None,
+        *,
+        may_pull: bool = False,
     ) -> None:
+        """Take a program; where bodies adhere, its forces may pull."""
+        self._may_pull = may_pull
         self.program, self.latest, self._lengths = program, latest, lengths
         self.times: list[float] = [0.0]
         self.controls: list[Control] = []
@@ -66,6 +74,8 @@ class ProgramCourse:
     def _way_to_zero(self) -> float:
         """Duration after which a force that the segment reduces is zero; inf for others [s]."""
         rate = self.segment.rate
+        if self._may_pull:
+            return math.inf
         return self._begin / -rate if self.segment.control == "force" and rate < 0 else math.inf
 
     def refuse_pull(self) -> None:
@@ -74,8 +84,8 @@ class ProgramCourse:
         if way == 0 or (duration is not None and way < duration * (1 - ROUNDING)):
             raise EventError(
                 f"load: segment {len(self.controls) + 1}, '{self.segment}': the force is zero "
-                f"after {format_quantity(way, 's', 6)} of it, and a negative force, with adhesion, "
-                "is not modelled; end it with 'until contact is lost'"
+                f"after {format_quantity(way, 's', 6)} of it, and a negative force needs adhesion; "
+                "end it with 'until contact is lost'"
             )
 
     @property
@@ -104,17 +114,24 @@ class ProgramCourse:
         level = self._begin + self.segment.rate * (time - self.begin)
         if self.segment.control == "approach":
             return level
-        return level if level > ROUNDING * self._begin else 0.0
+        least = ROUNDING * abs(self._begin)
+        if not self._may_pull:
+            return level if level > least else 0.0
+        return level if abs(level) > least else 0.0
 
     def finish(self, state: ContactState, met: Condition | None) -> None:
         """End the segment at a state, where a condition was met, or none."""
-        segment, values = self.segment, {"force": state.force, "approach": state.approach}
+        segment = self.segment
+        on_spring = state.stage_position is not None
+        approach = state.stage_position if on_spring else state.approach
+        values: dict[str, float] = {"force": state.force, "approach": approach or 0.0}
         values[segment.control] = self._level(state.time)
         ended_by = ""
         if met is not None:
             self.stopped = met is not segment.until
             ended_by = f"{STOP}{met}" if self.stopped else str(met)
-            if met.scalar in values:
+            # A stage is not where the body is.
+            if met.scalar in values and not (on_spring and met.scalar == "approach"):
                 values[met.scalar] = met.value
         self.times.append(state.time)
         self.controls.append(segment.control)
@@ -123,6 +140,11 @@ class ProgramCourse:
         self._ended_by.append(ended_by)
         if not self.is_over:
             self._begin = values[self.segment.control]
+
+    def end_with(self, state: ContactState) -> None:
+        """End the program with its present segment, whose force has pulled the bodies apart."""
+        self.finish(replace(state, time=self.planned_end), None)
+        self.stopped = True
 
 
 def never_happens(course: ProgramCourse, states: Sequence[ContactState]) -> str:

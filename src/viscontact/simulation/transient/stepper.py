@@ -312,7 +312,8 @@ class Stepper:
         """Solve the equilibrium of bodies that adhere (step 3); None without adhesion."""
         if self._adhesive is None:
             return None
-        spring = self._run.problem.load.stage_stiffness
+        load, under_force = self._run.problem.load, posed.point.force is not None
+        spring = None if under_force else load.stage_stiffness
         found = self._adhesive.solve(step, posed.problem, posed.guess, spring)
         if found.is_too_long:
             raise StepTooLongError(found.change)
