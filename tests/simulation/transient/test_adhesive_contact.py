@@ -76,7 +76,7 @@ def test_elastic_cycle_jumps_in_and_off_and_comes_back_on_its_way(loop):
 
 def test_jumps_are_found_between_given_times(loop):
     few = run(cycle(), [0.0, 1.0, 2.0])
-    np.testing.assert_allclose(few.attrs["event_times"], loop.attrs["event_times"], rtol=1e-4)
+    np.testing.assert_allclose(few.attrs["event_times"], loop.attrs["event_times"], rtol=1e-3)
     assert few.sizes["time"] == 3
 
 
@@ -187,6 +187,59 @@ def test_continued_run_has_the_same_bits(creeping):
         for one, other in zip(rest, whole[begun:], strict=True):
             assert np.array_equal(one.pressure, other.pressure)
             assert (one.force, one.work, one.events) == (other.force, other.work, other.events)
+
+
+def test_program_pulls_to_a_force_and_ends_where_contact_is_lost():
+    speed = f"{DEPTH * 1e6:.9f} um/s"
+    program = vc.LoadProgram(
+        f"move at {speed} for 0.5 s; retract at {speed} until force reaches {-FORCE * 1e6:.9f} uN;"
+        f"hold force for 0.2 s; retract at {speed} until contact is lost"
+    )
+    found = run(program, np.linspace(0.0, 4.0, 9))
+    kinds = found.attrs["event_kind"].splitlines()
+    assert kinds == ["condition", "pull_off", "condition"]
+    at = found.attrs["event_times"]
+    assert float(found.force.sel(time=at[0], method="nearest")) == close_to(-FORCE, rel=1e-5)
+    assert at[1] < at[2] == close_to(at[1], rel=1e-3)
+    assert found.attrs["pull_off_force"] == close_to(1.664 * FORCE, rel=5e-3)
+    assert int(found.outcome[-1]) == Outcome.NO_CONTACT
+
+
+def test_program_whose_force_pulls_too_much_ends_as_pulled_off():
+    rate = FORCE * 1e6
+    program = vc.LoadProgram(
+        f"load at {rate:.9f} uN/s for 0.5 s; unload at {rate:.9f} uN/s for 3 s"
+    )
+    found = run(program, np.linspace(0.0, 4.0, 9))
+    assert int(found.outcome[-1]) == Outcome.PULLED_OFF
+    assert float(found.time[-1]) == close_to(0.5 + 0.5 + 1.664, rel=3e-3)
+
+
+def test_two_equal_bodies_hold_as_one_of_half_the_modulus():
+    # Only the contact compliance of both together enters (Johnson 1985, section 4.2).
+    half = vc.Material(vc.Elastic(0.125e6), poisson_ratio=0.5)
+    load = vc.step(-FORCE)
+    one = run(load, [0.0], half)
+    two = run(load, [0.0], GEL, indenter_material=GEL)
+    np.testing.assert_allclose(two.approach, one.approach, rtol=1e-6)
+    np.testing.assert_allclose(two.contact_area, one.contact_area, rtol=1e-6)
+
+
+def test_rough_periodic_surface_jumps_spot_by_spot_and_holds():
+    # A wave in both directions: at the same mean plane it pulls before it touches, then presses.
+    cells, size = 32, 1e-4
+    places = (np.arange(cells) + 0.5) * size / cells - size / 2
+    wave = np.cos(2 * np.pi * places / size)
+    body = vc.HeightMap(places, places, 2e-7 * (wave[:, None] + wave[None, :]))
+    load = vc.ApproachHistory([0.0, 1.0], [-2e-7, 3e-7])
+    found = vc.simulate(
+        *(body, GEL, load, vc.Grid((cells, cells), (size, size), periodic=True), [0.0, 0.5, 1.0]),
+        adhesion=vc.Adhesion(1e-4, range=5e-8),
+        errors=False,
+    )
+    assert (found.residual < 1e-6).all()
+    assert found.force[0] < 0 < found.force[-1]
+    assert float(found.contact_area[0]) == 0 < float(found.contact_area[-1])
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ def test_contact_outgrows_its_grid_at_either_end_of_an_axis(cell: tuple[int, int
 def test_event_has_the_value_of_its_condition_and_not_that_of_the_step_found() -> None:
     program = LoadProgram(["move at 1 um/s until force reaches 6 N", "hold force for 2 s"])
     course = ProgramCourse(program, 100.0)
-    found = SimpleNamespace(time=3.0, force=6.000004, approach=3e-6)
+    found = SimpleNamespace(time=3.0, force=6.000004, approach=3e-6, stage_position=None)
     course.finish(found, course.segment.until)
     assert course.history().at(4.0).force == 6.0
 

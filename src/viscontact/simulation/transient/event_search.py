@@ -51,6 +51,10 @@ COUNTED, COUNTED_TOLERANCE, MIDDLES = (
 #: contact is lost for certain.
 LOST_MARGIN = 3.0
 
+#: Time from a pull-off to the end of the segment that it ends, as a part of the run: within it the
+#: run has lost contact, too.
+PULL_OFF_MARGIN = 1e-4
+
 #: Requested error of steps by which the hereditary integral of the search is planned [-].
 PLANNED_ERROR = 1e-3
 
@@ -218,6 +222,11 @@ class EventSearch:
         """Return the step up to the instant at which a condition is met."""
         step = crossed.step
         begin = step.time - step.duration
+        if condition.scalar == "contact" and self._run.law is not None:
+            # A jump has no root. The run itself, in other steps, finds it as accurately as this.
+            late = step.time + PULL_OFF_MARGIN * self._course.latest
+            time = max(step.time, min(late, self._course.planned_end))
+            return self._solve(TimeStep(time, time - begin, time, smooth=False, is_shortest=True))
         if condition.scalar in COUNTED:
             first = _excess(condition, self._state) > 0
             _, past = self._around(step, lambda at: (_excess(condition, at.state) > 0) != first)
