@@ -141,6 +141,10 @@ TABLE = (
         reported=Reported("slip", "Section through the tractions", of_use="has_stored_slip"),
     ),
     FigureEntry(
+        "force-curve",
+        reported=Reported("histories", "Force over approach", of_use="has_force_curve"),
+    ),
+    FigureEntry(
         "fretting-loop",
         reported=Reported("slip", "Force over shift", of_use="has_shift"),
     ),

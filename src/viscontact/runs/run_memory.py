@@ -41,6 +41,10 @@ ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 26.0, 2.0
 #: half of the grid; of a quarter of it with both symmetries.
 ARRAYS_OF_SLIP_SEARCH = 18.0
 
+#: Arrays of the computed cells with adhesion: attraction and its slope, gap, and about ten vectors
+#: each of the basis and the directions of GMRES.
+ARRAYS_OF_ADHESION = 30.0
+
 #: Fields that take as much memory as the tables and operators of a further term of layers.
 FIELDS_OF_TERM = 7
 
@@ -61,6 +65,8 @@ def run_memory(run: RunSetup) -> float:
     fields += FIELDS_OF_TERM * len(run.other_terms)
     creeps = not run.problem.surface.creep.is_elastic
     whole = ARRAYS_OF_TRENDS * creeps * (1 + any(run.mirrored))
+    if run.law is not None:
+        further += ARRAYS_OF_ADHESION
     if run.problem.friction is not None:
         kept_there = sum(plan.fields_kept for plan in run.shear_plans)
         whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there

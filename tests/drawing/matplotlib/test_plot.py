@@ -53,6 +53,10 @@ def legend_texts(axes: Axes) -> list[str]:
 OF_FRICTION = {"stick-map", "traction-profile", "fretting-loop", "slip-history"}
 
 
+#: Figures of bodies that adhere.
+OF_ADHESION = {"force-curve"}
+
+
 #: Figures of contacts on a period.
 OF_PERIODS = {"area-pressure"}
 
@@ -70,10 +74,27 @@ def pressed_waves() -> xr.Dataset:
         )
 
 
+@cache
+def sticking_sphere() -> xr.Dataset:
+    """Sphere of a Tabor number of 1 that jumps into contact and is pulled off."""
+    gel = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)
+    load = vc.ApproachHistory([0.0, 1.0, 2.0], [-2.5e-6, 1e-6, -2.5e-6])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vc.AccuracyWarning)
+        return vc.simulate(
+            *(vc.Paraboloid(1e-3, 1e-3), gel, load, vc.Grid((32, 32), (2.4e-4, 2.4e-4))),
+            np.linspace(0.0, 2.0, 21),
+            adhesion=vc.Adhesion(0.05, range=1.36e-6),
+            errors=False,
+        )
+
+
 def run_for(name: str, sphere: xr.Dataset, gripping: xr.Dataset) -> xr.Dataset:
     """Result that a figure is for."""
     if name in OF_PERIODS:
         return pressed_waves()
+    if name in OF_ADHESION:
+        return sticking_sphere()
     return gripping if name in OF_FRICTION else sphere
 
 
@@ -501,3 +522,26 @@ def test_time_is_logarithmic_only_where_the_load_is_held_nearly_from_the_start(
     levels = {"force": (driven, 1e-4 * follows), "approach": (follows, 1e-4 * driven)}[control]
     figure = FIGURES["history"](_swinging(t, *levels))
     assert {axes.get_xscale() for axes in figure.axes} == {scale}
+
+
+def test_force_curve_has_both_ways_the_jumps_and_the_limits_of_spheres() -> None:
+    run = sticking_sphere()
+    (axes,) = FIGURES["force-curve"](run).axes
+    assert legend_texts(axes) == ["approach", "retraction"]
+    # A line from before to after each jump, in the units of the axes: µm and µN.
+    ends = np.reshape(run.attrs["event_force"], (-1, 2)) * 1e6
+    drawn = [line.get_ydata() for line in axes.lines if len(line.get_xdata()) == 2]
+    for pair in ends:
+        assert any(np.allclose(np.asarray(line, float), pair) for line in drawn)
+    # 3/2 and 2 times pi w R.
+    unit = np.pi * 0.05 * 1e-3 * 1e6
+    texts = {text.get_text() for text in axes.texts}
+    assert {"JKR", "DMT"} <= texts
+    level = [np.asarray(line, float) for line in drawn if line[0] == line[1]]
+    for factor in (1.5, 2.0):
+        assert any(np.allclose(line, -factor * unit) for line in level)
+
+
+def test_force_curve_needs_adhesion(sphere: xr.Dataset) -> None:
+    with pytest.raises(ValueError, match="force-curve: needs bodies that adhere"):
+        FIGURES["force-curve"](sphere)

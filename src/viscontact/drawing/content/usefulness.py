@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import xarray as xr
 
+from viscontact.drawing.content.force_curve import adheres
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.figures import FigureEntry
 from viscontact.results.fretting import acting_directions, is_gripping
@@ -28,6 +29,11 @@ def has_loops(ds: xr.Dataset) -> bool:
     return bool(loops_of(ds))
 
 
+def has_force_curve(ds: xr.Dataset) -> bool:
+    """True for bodies that adhere."""
+    return adheres(ds) and ds.sizes["time"] > 1
+
+
 def has_slip(ds: xr.Dataset) -> bool:
     """True for a run under friction."""
     return is_gripping(ds)
@@ -45,5 +51,9 @@ def has_shift(ds: xr.Dataset) -> bool:
 
 #: Tests that the table of figures names.
 TESTS: dict[str, Callable[[xr.Dataset], bool]] = {
-    each.__name__: each for each in (has_line_load, has_loops, has_slip, has_stored_slip, has_shift)
+    each.__name__: each
+    for each in (
+        *(has_line_load, has_loops, has_force_curve),
+        *(has_slip, has_stored_slip, has_shift),
+    )
 }

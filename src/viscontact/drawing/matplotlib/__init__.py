@@ -28,6 +28,7 @@ from viscontact.drawing.matplotlib.geometry.load_drawing import draw_load
 from viscontact.drawing.matplotlib.geometry.power_spectrum import draw_power_spectrum
 from viscontact.drawing.matplotlib.histories.contact_area import area_pressure, contact_area
 from viscontact.drawing.matplotlib.histories.exact import exact
+from viscontact.drawing.matplotlib.histories.force_curve import force_curve
 from viscontact.drawing.matplotlib.histories.history import compare_histories, history
 from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresis, hysteresis
 from viscontact.drawing.matplotlib.histories.leak_rate import leak_rate
@@ -112,6 +113,7 @@ __all__ = [
     "fitted_records",
     "fitted_series",
     "fluid_pressure",
+    "force_curve",
     "fretting_loop",
     "friction",
     "given_pressure",
