@@ -218,3 +218,26 @@ def test_design_finds_the_least_pressure_that_seals(folder: Path) -> None:
         runs=14,
     )
     assert float(found.best.leak_rate) < 3e-13
+
+
+def test_scalars_over_speed_are_those_of_the_result(tmp_path: Path) -> None:
+    without = {key: each for key, each in CREEPING.items() if key not in ("time", "load")}
+    case = {
+        **without,
+        "load": {"kind": "step", "mean_pressure": "0.2 GPa", "tilt_x": 0, "tilt_y": 0},
+        "motion": {"kind": "steady", "speed": ["1 um/s", "1 mm/s"], "rolling": False},
+        "output": {"fields": "all", "errors": False},
+    }
+    (tmp_path / "case.yaml").write_text(json.dumps(case), encoding="utf-8")
+    found = result_of(read_case(tmp_path / "case.yaml"))
+    leak = vc.leakage(found, viscosity=1e-3, pressure_difference=1e5)
+    np.testing.assert_allclose(found.leak_rate, leak.leak_rate, rtol=1e-12)
+    assert (leak.leak_rate > 0).all()
+    # A ball has a grid for each speed, on which the gap is not known at the others.
+    ball = {key: each for key, each in case.items() if key != "grid"}
+    ball |= {"indenter": {"shape": "sphere", "radius": "10 mm"}}
+    ball["load"] = {"kind": "step", "force": "1 N", "tilt_x": 0, "tilt_y": 0}
+    (tmp_path / "ball.yaml").write_text(json.dumps(ball), encoding="utf-8")
+    alone = result_of(read_case(tmp_path / "ball.yaml"))
+    known = np.isfinite(alone.gap).all(("x", "y"))
+    np.testing.assert_array_equal(np.isfinite(alone.leak_rate), known)

@@ -227,7 +227,7 @@ REFUSED: dict[str, tuple[Any, dict[str, Any], str]] = {
         {"fields": "all", "pressure_difference": None},
         "fields: .* need pressure_difference",
     ),
-    "unknown gap": (np.where(rough(1, 0.2) > 2e-6, np.nan, 1e-6), {}, "enlarged"),
+    "unknown gap": (np.where(rough(1, 0.2) > 2e-6, np.nan, 1e-6), {}, "grids differ"),
     "beyond the body": (np.where(rough(1, 0.2) > 2e-6, np.inf, 1e-6), {}, "beyond the end"),
 }
 

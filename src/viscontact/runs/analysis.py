@@ -151,7 +151,11 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     def leaking(self, state: ContactState) -> ContactState:
         """Return a state of the loop, with what leaks if the case names a fluid."""
         fluid = self._scalar_leakage
-        return state if fluid is None else fluid.of(state, kept=self.keeps(state))
+        if fluid is None:
+            return state
+        # As it is stored, so that a leakage of the result finds the same.
+        found = fluid.values(self.recorded_state(state)) if self.keeps(state) else fluid.unknown
+        return replace(state, **found)
 
     @property
     def leakage_memory(self) -> float:

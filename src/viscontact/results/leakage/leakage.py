@@ -160,8 +160,9 @@ def _instant(ds: xr.Dataset, grid: Grid, flow: FlowAxis, index: int) -> InstantL
     touched = np.asarray(cells_in_contact(ds, index), dtype=bool)
     if np.isnan(gap).any():
         raise ValueError(
-            "leakage: the gap is not known on the whole grid at all instants, as the run enlarged "
-            "its grid; run again on its last grid, or choose later instants"
+            "leakage: the gap is not known on the whole grid at all instants or speeds, as their "
+            "grids differ; run again on a given grid ('grid' with shape and size), or choose those "
+            "on the last grid"
         )
     return InstantLeakage(gap, touched, grid, flow, float(ds.attrs.get("tolerance", _TOLERANCE)))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -32,18 +32,24 @@ class CaseLeakage:
         """True for a flow along one axis; one along both has no single leak rate."""
         return bool(self.settings.get("along", "x") != "both")
 
-    def of(self, state: ContactState, *, kept: bool) -> ContactState:
-        """The state with its leakage; NaN if its fields are not kept, or none can be found."""
-        values: dict[str, Any] = dict.fromkeys((*OF_LEAKAGE, *_ERRORS), np.nan)
-        if kept:
-            with suppress(ValueError):  # the sentences below the table of the run give the reason
-                values |= self._values(state)
-        return replace(state, **values)
+    @property
+    def unknown(self) -> dict[str, Any]:
+        """Scalars of a state whose fields are not kept, or of which none can be found."""
+        return dict.fromkeys((*OF_LEAKAGE, *_ERRORS), np.nan)
+
+    def values(self, state: ContactState) -> dict[str, Any]:
+        """Scalars of a state with its fields."""
+        found = self.unknown
+        with suppress(ValueError):  # the sentences below the table of the run give the reason
+            found |= self._values(state)
+        return found
 
     def _values(self, state: ContactState) -> dict[str, float]:
         along = self.settings.get("along", "x")
         flow = flow_axis(along, self.settings.get("ends"), state.grid)
         gap = np.asarray(state.gap, dtype=np.float64)
+        if np.isnan(gap).any():
+            raise ValueError("leakage: the gap is not known on the whole grid")
         found = InstantLeakage(gap, state.in_contact, state.grid, flow, self.tolerance)
         fluid, extents = fluid_of(self.settings), found.extents
         transmissivity, error = np.array(found.transmissivity), np.array(found.error)
