@@ -102,7 +102,7 @@ TABLE = (
     ),
     _fields("leak-channel", takes=("times", "along")),
     _fields("fluid-pressure", takes=("times", "along")),
-    _fields("leak-rate", takes=("times", "along")),
+    _fields("leak-rate", takes=("times", "along", "over")),
     FigureEntry(
         "history",
         compare="compare_histories",

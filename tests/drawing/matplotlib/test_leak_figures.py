@@ -67,6 +67,18 @@ def test_panels_show_rate_error_and_the_instant_of_closing() -> None:
     assert across.marks[0].place == 0.25
 
 
+def test_rate_over_force_and_over_area_has_the_values_over_time() -> None:
+    leak = vc.leakage(synthetic_results.ellipse(), viscosity=1.0, along="y")
+    leak = leak.assign(force=("time", np.arange(1.0, leak.sizes["time"] + 1)))
+    for over, name in (("force", "force"), ("area", "contact_fraction")):
+        rate, gaps = leak_panels(leak, "y", over)
+        np.testing.assert_array_equal(rate.curves[0].x, leak[name])
+        np.testing.assert_allclose(rate.curves[0].y, leak.transmissivity)
+        np.testing.assert_array_equal(gaps.curves[0].x, leak[name])
+    with pytest.raises(ValueError, match="over must be"):
+        leak_panels(leak, "y", "place")
+
+
 def test_rate_of_a_result_is_that_of_its_leakage() -> None:
     ds = synthetic_results.ellipse()
     of_result = shown_leakage(ds, None, "y", "leak-rate")

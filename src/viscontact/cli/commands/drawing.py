@@ -60,6 +60,12 @@ Style = Annotated[
         "by default colours for a contact of many spots.",
     ),
 ]
+Over = Annotated[
+    str | None,
+    typer.Option(
+        "--over", metavar="time|force|area", help="Axis of a leak-rate; by default time or speed."
+    ),
+]
 Theory = Annotated[
     bool | None,
     typer.Option(
@@ -89,6 +95,7 @@ def plot(
     at: At = None,
     style: Style = None,
     theory: Theory = None,
+    over: Over = None,
     seconds: Annotated[
         float | None,
         typer.Option("--seconds", help="Duration of an animation in seconds; 8 by default."),
@@ -105,6 +112,7 @@ def plot(
 
     options: dict[str, str | float | None] = {
         **{"width": width, "along": along, "at": at, "style": style, "theory": theory},
+        **{"over": over},
         **{"seconds": seconds, "fps": fps},
     }
     draw(directory, figure, times or [], output, options, speeds or [])

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.along_run import steps_grow
-from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Panel
+from viscontact.drawing.content.panel import FIRST, PERCENT, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.leakage.leakage import fields_of, instant_leakage, leakage
 from viscontact.results.leakage.of_case import leakage_settings
 from viscontact.results.run_axis import run_axis
@@ -109,14 +109,13 @@ def _named(figure: str) -> Iterator[None]:
         raise ValueError(f"{figure}: {str(error).removeprefix('leakage: ')}") from None
 
 
-def leak_panels(leak: xr.Dataset, along: str) -> tuple[Panel, Panel]:
+def leak_panels(leak: xr.Dataset, along: str, over: str = "time") -> tuple[Panel, Panel]:
     """Panels of the leak rate, or the transmissivity without one, and of the critical gap."""
-    axis, one = run_axis(leak), leak
+    one = leak
     if "direction" in leak.dims:
         one = leak.sel(direction=along)
     name = "leak_rate" if np.isfinite(one["leak_rate"].values).any() else "transmissivity"
-    places = axis.values(leak)
-    x = _along(axis.name.capitalize(), axis.unit, places)
+    places, x = _places(leak, over)
     values, errors = one[name].values, one[f"{name}_error"].values
     opened = one["percolates"].values > 0
     closes = np.flatnonzero(opened[:-1] & ~opened[1:])
@@ -143,6 +142,18 @@ def leak_panels(leak: xr.Dataset, along: str) -> tuple[Panel, Panel]:
     every = np.concatenate([curve.y for curve in curves])
     second = Panel(x, _decades("Gap", "m", every), curves, marks=marks, name="critical-gap")
     return first, second
+
+
+def _places(leak: xr.Dataset, over: str) -> tuple[Floats, Axis]:
+    """Values along the horizontal axis, and the axis: instants or speeds, forces or areas."""
+    axis = run_axis(leak)
+    if over == "time":
+        return axis.values(leak), _along(axis.name.capitalize(), axis.unit, axis.values(leak))
+    if over == "force":
+        return leak["force"].values, Axis.of("Force", "N", leak["force"].values)
+    if over == "area":
+        return leak["contact_fraction"].values, Axis("Real over nominal area", PERCENT)
+    raise ValueError(f"leak-rate: over must be 'time', 'force' or 'area', got {over!r}")
 
 
 def _along(name: str, si: str, places: Floats) -> Axis:

@@ -20,6 +20,7 @@ def leak_rate(
     *,
     times: ArrayLike | None = None,
     along: Literal["x", "y"] = "x",
+    over: Literal["time", "force", "area"] = "time",
     width: Width | None = None,
 ) -> Figure:
     """Draw how much leaks over time or speed, and the gap where the channel is narrowest.
@@ -33,6 +34,9 @@ def leak_rate(
         Instants [s], or speeds [m/s]; the nearest ones are drawn. All by default.
     along : {"x", "y"}, optional
         Direction of the flow, if there are two.
+    over : {"time", "force", "area"}, optional
+        Over the time, or the speed of steady motion; over the force; or over the real over the
+        nominal area, where the leak rates of growing contacts lie nearly on one curve.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -59,7 +63,7 @@ def leak_rate(
     ['Leak rate [mm³/s]', 'Gap [µm]']
     """
     leak = shown_leakage(results, times, along, "leak-rate")
-    panels = leak_panels(leak, along)
+    panels = leak_panels(leak, along, over)
     wide = page_width(width, style.ONE_COLUMN)
     figure = stacked_panels(panels, wide, 1.15 * wide)
     for axes in figure.axes:
