@@ -14,7 +14,7 @@ from interrupted_runs import contents, folder, kill, same_bits
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.report import write_report
-from viscontact.results.leakage.of_case import case_leakage
+from viscontact.results.leakage.of_case import case_leakage, leakage_lines
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.variables import Place
 from viscontact.studies.case_values import result_of
@@ -146,6 +146,9 @@ def test_scalars_are_those_of_the_stored_instants(tmp_path: Path) -> None:
             assert np.isnan(ds[name][~stored]).all()
         np.testing.assert_allclose(ds.leak_rate_error[stored], found.leak_rate_error, rtol=1e-4)
         assert (np.diff(ds.leak_rate[stored]) < 0).all()  # creep closes the channels
+        line, bare = leakage_lines(ds), ds.drop_vars("transmissivity")
+        assert line == leakage_lines(bare)  # computed again from the gap
+        assert line[0].startswith("leakage at t = 3 s: critical gap")
         facts = shown_scalars(ds, Place.FACTS)
         assert {"leak_rate", "critical_gap"} <= set(facts)
         undriven = ds.assign(leak_rate=ds.leak_rate * np.nan)

@@ -11,6 +11,7 @@ import xarray as xr
 from viscontact.mechanics.state import LEAKAGE
 from viscontact.results.leakage.leakage import leakage
 from viscontact.results.run_axis import run_axis
+from viscontact.results.variables import OF_LEAKAGE
 from viscontact.units.formatting import format_quantity
 
 
@@ -38,7 +39,8 @@ def case_leakage(ds: xr.Dataset, *, last: bool = False) -> xr.Dataset | None:
 def leakage_lines(ds: xr.Dataset) -> list[str]:
     """Leakage at the last stored instant in sentences, one for each direction."""
     try:
-        found = case_leakage(ds, last=True)
+        stated = _stated(ds)
+        found = case_leakage(ds, last=True) if stated is None else stated
     except ValueError as error:  # the channel leads beyond the body, or is too large
         return [str(error)]
     if found is None:
@@ -52,6 +54,21 @@ def leakage_lines(ds: xr.Dataset) -> list[str]:
         where = f"leakage at {place}{f' along {direction}' if direction else ''}"
         lines.append(f"{where}: {_in_words(row)}")
     return lines
+
+
+def _stated(ds: xr.Dataset) -> xr.Dataset | None:
+    """Leakage at the last stored instant by the scalars of a run; None where they are not known."""
+    if "transmissivity" not in ds or "pressure" not in ds:
+        return None
+    places, axis = ds[str(ds["pressure"].dims[0])].values, run_axis(ds)
+    if not places.size:
+        return None
+    row = ds[[*OF_LEAKAGE, "leak_rate_error"]].isel(
+        {axis.name: [int(np.abs(axis.values(ds) - places[-1]).argmin())]}
+    )
+    gap = np.cbrt(12 * row["transmissivity"])
+    known = bool(np.isfinite(row["transmissivity"]).all())
+    return row.assign(effective_gap=gap, percolates=gap > 0) if known else None
 
 
 def gaps_in_words(ds: xr.Dataset) -> list[str]:
