@@ -15,8 +15,10 @@ from viscontact.case import CaseError, case_schema, read_case
 from viscontact.cli import main
 from viscontact.report import write_report
 from viscontact.results.leakage.of_case import case_leakage, leakage_lines
+from viscontact.results.leakage.of_state import leakage_memory
 from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.variables import Place
+from viscontact.runs.preparation import analysis_of
 from viscontact.studies.case_values import result_of
 from viscontact.studies.scalars import require_fluid
 
@@ -244,3 +246,13 @@ def test_scalars_over_speed_are_those_of_the_result(tmp_path: Path) -> None:
     alone = result_of(read_case(tmp_path / "ball.yaml"))
     known = np.isfinite(alone.gap).all(("x", "y"))
     np.testing.assert_array_equal(np.isfinite(alone.leak_rate), known)
+
+
+def test_forecast_counts_the_flow(tmp_path: Path) -> None:
+    with_flow, alone = (
+        analysis_of(read_case(written(tmp_path, leakage=each)), errors=False)
+        for each in ({"viscosity": "1 mPa s", "along": "x"}, None)
+    )
+    assert with_flow.memory == alone.memory + leakage_memory(6 * 32)
+    assert with_flow.seconds > alone.seconds
+    assert leakage_memory(10**9) == leakage_memory(10**8)

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscontact.mechanics.state import ContactState
 from viscontact.results.leakage.fluid import flow_axis, fluid_of
-from viscontact.results.leakage.instant import MEMORY, InstantLeakage
+from viscontact.results.leakage.instant import MEMORY, MOST_UNKNOWNS, InstantLeakage
 from viscontact.results.variables import OF_LEAKAGE, SCALARS, error_name
 
 _ERRORS = tuple(name for name in map(error_name, OF_LEAKAGE) if name in SCALARS)
@@ -64,7 +64,7 @@ class CaseLeakage:
 
 def leakage_memory(cells: int) -> float:
     """Memory of the flow on a grid [bytes]."""
-    return float(MEMORY * cells)
+    return float(MEMORY * min(cells, MOST_UNKNOWNS))  # more are refused
 
 
 def leakage_seconds(cells: int) -> float:
