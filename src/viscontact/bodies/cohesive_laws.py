@@ -46,6 +46,11 @@ class CohesiveLaw(ABC):
         return self
 
     @property
+    def remainder(self) -> CohesiveLaw:
+        """The law less its decreasing one: a repulsion that falls with the gap, or nothing."""
+        return _Remainder(self.work, self.range, self)
+
+    @property
     @abstractmethod
     def reach(self) -> float:
         """Gap beyond which the traction is below 1e-12 of the strength [m]."""
@@ -172,6 +177,31 @@ class _DecreasingLennardJones(LennardJones):
     def _strongest(self) -> float:
         """Gap of the strength [m]."""
         return self._distance * (3 ** (1 / 6) - 1)
+
+
+@dataclass(frozen=True)
+class _Remainder(CohesiveLaw):
+    """A law less its decreasing one."""
+
+    whole: CohesiveLaw
+
+    @property
+    def reach(self) -> float:
+        """See `CohesiveLaw.reach`."""
+        return self.whole.reach
+
+    def traction(self, gap: Floats, across: Floats) -> Floats:
+        """See `CohesiveLaw.traction`; negative or zero."""
+        whole = self.whole
+        return whole.traction(gap, across) - whole.decreasing.traction(gap, across)
+
+    def slope(self, gap: Floats, across: Floats) -> Floats:
+        """See `CohesiveLaw.slope`."""
+        return self.whole.slope(gap, across) - self.whole.decreasing.slope(gap, across)
+
+    def energy(self, gap: Floats) -> Floats:
+        """See `CohesiveLaw.energy`."""
+        return self.whole.energy(gap) - self.whole.decreasing.energy(gap)
 
 
 #: Laws by their names.

@@ -75,10 +75,12 @@ def test_lennard_jones_sphere_holds_like_the_other_laws():
     assert parabola_least(approaches, forces) == close_to(-1.665, abs=3e-3)
 
 
-def test_given_forces_are_held_up_to_the_pull_off_force():
-    sphere = Sphere("exponential", 1.0, 64, 6.0)
+@pytest.mark.parametrize("law", ["exponential", "dugdale", "lennard-jones"])
+def test_given_forces_are_held_up_to_the_pull_off_force(law):
+    # 1.66 π w R of the smooth laws, 1.585 of Dugdale's (Maugis 1992).
+    sphere = Sphere(law, 1.0, 64, 6.0)
     last = sphere.contact(force=0.0)
-    for force in (-1.0, -1.6):
+    for force in (-1.0, -1.55 if law == "dugdale" else -1.6):
         problem = sphere.problem(force=force * FORCE)
         last = solve_from(problem, sphere.domain, last.traction, 1e-7)
         assert sphere.force(last) == close_to(force, rel=1e-6)
@@ -142,3 +144,17 @@ def test_weak_adhesion_tends_to_the_contact_without_it():
     hertz = 4 / 3 * 0.5**1.5 / FORCE
     assert forces[2] == close_to(hertz, rel=2e-3)
     assert (forces[0] - forces[2]) / (forces[1] - forces[2]) == close_to(2.0, rel=0.05)
+
+
+def test_remainder_of_a_law_that_increases_is_a_repulsion_that_falls():
+    law = Sphere("lennard-jones", 1.0, 8, 6.0).problem().law
+    gaps = np.linspace(0.0, 3.0, 301)
+    across = np.zeros(gaps.shape)
+    repulsion = -law.remainder.traction(gaps, across)
+    assert repulsion[0] == close_to(law.strength, rel=1e-12)
+    assert (repulsion >= -1e-12 * law.strength).all()
+    assert (np.diff(repulsion) <= 1e-9 * law.strength).all()
+    ends = law.remainder.traction(gaps + 1e-6, across) - law.remainder.traction(gaps, across)
+    np.testing.assert_allclose(
+        law.remainder.slope(gaps + 5e-7, across), ends / 1e-6, rtol=1e-3, atol=1e-4
+    )

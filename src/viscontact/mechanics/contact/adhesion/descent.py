@@ -15,13 +15,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.mechanics.contact.adhesion.newton import newton_search
 from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, attraction
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import solve_contact
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 
 #: Tolerance of the contacts of a descent.
-CONTACT_TOLERANCE = 1e-8
+CONTACT_TOLERANCE = 1e-7
 
 #: Iterations of one call.
 MAX_ITERATIONS = 300
@@ -30,9 +31,6 @@ MAX_ITERATIONS = 300
 #: state, or pass the place of one that has just ceased to exist; those are passed in steps of this
 #: length. Ratio of successive changes up to which they approach a state [-].
 NEAR, CONVERGES = 3e-2, 0.8
-
-#: Corrections of the approach of a body on a spring in each iteration.
-MAX_SECANTS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,9 +114,30 @@ class Descent:
         )
         resultants = force, moment_x, moment_y
         contact = replace(contact, constraints=replace(given, resultants=resultants))
-        if self._problem.spring:
-            return self._on_spring(contact, float(targets[0]))
+        if self._problem.spring or self._problem.law.decreasing is not self._problem.law:
+            found = self._by_newton(contact)
+            if found is not None:
+                return found
         return self._solved(contact)
+
+    def _by_newton(self, contact: ContactProblem) -> Guess | None:
+        """The same with a spring, and with what the law lacks of its decreasing one.
+
+        That is a convex problem, too: Newton's method finds its state from afar. None if not.
+        """
+        problem, domain = self._problem, self._domain
+        convex = replace(problem, contact=contact, law=problem.law.remainder)
+        if self._pressed is not None:
+            motion = contact.constraints.with_prescribed(self._pressed.motion)
+            start = Guess(self._pressed.values.copy(), motion)
+        elif problem.spring:
+            position = contact.constraints.targets[0] / problem.spring
+            start = Guess(np.zeros((2, *domain.shape)), np.array([position, 0.0, 0.0]))
+        else:
+            start = self._solved(contact)
+        found = newton_search(convex, domain, start, CONTACT_TOLERANCE)
+        self.convolutions += found.convolutions
+        return found.iterate if found.converged or problem.spring else None
 
     def _solved(self, contact: ContactProblem) -> Guess:
         domain, constraints = self._domain, contact.constraints
@@ -134,39 +153,3 @@ class Descent:
         found = solve_contact(contact, domain, guess, tolerance=CONTACT_TOLERANCE)
         self.convolutions += found.convolutions
         return found.found
-
-    def _on_spring(self, contact: ContactProblem, target: float) -> Guess:
-        """Contact of a body on a spring: k · approach + force is given; by regula falsi."""
-        spring, area = self._problem.spring, self._domain.whole.cell_area
-
-        def excess(approach: float) -> tuple[float, Guess]:
-            constraints = replace(
-                contact.constraints,
-                resultants=(None, *contact.constraints.resultants[1:]),
-                motions=(approach, *contact.constraints.motions[1:]),
-            )
-            found = self._solved(replace(contact, constraints=constraints))
-            return spring * approach + float(found.pressure.sum()) * area - target, found
-
-        high = target / spring  # without any contact
-        value, found = excess(high)
-        if value <= 0:
-            return found
-        step, low = abs(value) / spring / 4, high
-        upper = value
-        while value > 0:
-            high, upper = low, value
-            low, step = low - step, 2 * step
-            value, found = excess(low)
-        lower = value
-        scale = max(abs(target), spring * abs(high))
-        for _ in range(MAX_SECANTS):
-            middle = low - lower * (high - low) / (upper - lower)
-            value, found = excess(middle)
-            if abs(value) <= CONTACT_TOLERANCE * scale:
-                break
-            if value > 0:
-                high, upper, lower = middle, value, lower / 2
-            else:
-                low, lower, upper = middle, value, upper / 2
-        return found

@@ -106,6 +106,8 @@ class LinearStep:
         slope = checked.attraction.slope[self._cells]
         #: Factor of a change of the gap in each equation [Pa/m].
         self._of_gap = np.where(self._contact, 1 / (self._compliance * self._spacing), slope)
+        #: Equations of cells whose attraction grows with the gap are stiff [-].
+        self._stiffness = 1 + np.maximum(slope, 0.0) * self._compliance * self._spacing
         self._gap = checked.gap[self._cells]
         self._traction = checked.attraction.traction[self._cells]
         self._lacking = lacking / patch.cell_area
@@ -132,7 +134,7 @@ class LinearStep:
         """Step from an iterate, on the patch around the cells that bear traction."""
         scale = problem.traction_scale(iterate)
         least = NEGLIGIBLE_SHARE * tolerance * scale
-        active = checked.in_contact | (checked.attraction.traction > least)
+        active = checked.in_contact | (np.abs(checked.attraction.traction) > least)
         active |= iterate.pressure != 0
         patch = domain.patch_around(active)
         cut = AdhesiveResidual(
@@ -195,12 +197,13 @@ class LinearStep:
 
     def _preconditioned(self, vector: Floats) -> Floats:
         """About the pressure that a residual calls for [Pa]."""
+        attracted = vector / self._stiffness
         if not self._contact.any():
-            return vector.copy()
+            return attracted
         field = np.zeros(self._patch.shape)
         field[self._cells] = np.where(self._contact, vector, 0.0) * self._spacing
         pressed = self._patch.preconditioner.apply(field)[self._cells]
-        return np.where(self._contact, pressed, vector)
+        return np.where(self._contact, pressed, attracted)
 
     def _share(self, mode: int) -> Floats:
         """About the pressure by a unit of one rigid motion: of cells in contact, if there are."""
