@@ -532,14 +532,14 @@ def test_force_curve_has_both_ways_the_jumps_and_the_limits_of_spheres() -> None
     ends = np.reshape(run.attrs["event_force"], (-1, 2)) * 1e6
     drawn = [line.get_ydata() for line in axes.lines if len(line.get_xdata()) == 2]
     for pair in ends:
-        assert any(np.allclose(np.asarray(line, float), pair) for line in drawn)
+        assert any(np.allclose(np.asarray(line, float), pair, rtol=1e-6, atol=0) for line in drawn)
     # 3/2 and 2 times pi w R.
     unit = np.pi * 0.05 * 1e-3 * 1e6
     texts = {text.get_text() for text in axes.texts}
     assert {"JKR", "DMT"} <= texts
     level = [np.asarray(line, float) for line in drawn if line[0] == line[1]]
     for factor in (1.5, 2.0):
-        assert any(np.allclose(line, -factor * unit) for line in level)
+        assert any(np.allclose(line, -factor * unit, rtol=1e-6, atol=0) for line in level)
 
 
 def test_force_curve_needs_adhesion(sphere: xr.Dataset) -> None:
