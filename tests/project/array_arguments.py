@@ -237,6 +237,18 @@ def a_run_under_friction() -> Any:
 
 
 @cache
+def a_run_with_adhesion() -> Any:
+    """Result over time, of bodies that adhere."""
+    grid, times = vc.Grid((24, 24), (2.4e-4, 2.4e-4)), [0.0, 2.0, 50.0, 100.0]
+    gel = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)
+    return vc.simulate(
+        *(vc.Paraboloid(1e-3, 1e-3), gel, vc.ramp(approach=1e-6, duration=100.0), grid, times),
+        adhesion=vc.Adhesion(0.05, range=1.4e-6),
+        errors=False,
+    )
+
+
+@cache
 def a_layered_run() -> Any:
     """Result over time, on layers."""
     layers = vc.Layered([vc.Layer(1e-4, RUBBER)], base=RUBBER)
@@ -255,7 +267,10 @@ def a_steady_motion() -> Any:
 
 
 #: Results that are made where they are needed.
-LATER = (a_run, a_run_under_friction, a_layered_run, several_runs, a_steady_motion)
+LATER = (
+    *(a_run, a_run_under_friction, a_run_with_adhesion, a_layered_run, several_runs),
+    a_steady_motion,
+)
 
 
 @dataclass(frozen=True)
@@ -326,6 +341,7 @@ def _of_result(call: Callable[..., Any]) -> tuple[dict[str, Any], ...]:
     run = a_layered_run if call is vc.interface_stresses else run
     if call in (plot.stick_map, plot.traction_profile, plot.fretting_loop, plot.slip_history):
         run = a_run_under_friction
+    run = a_run_with_adhesion if call is plot.force_curve else run
     return ({first: run, **{name: places[name] for name in others if name in places}},)
 
 
