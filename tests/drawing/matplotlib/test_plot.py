@@ -130,7 +130,9 @@ LONG = {"history", "pressure-map", "pressure-profile"}
     [
         name if name in LONG else pytest.param(name, marks=pytest.mark.slow)
         for name in sorted(
-            set(FIGURES) - OF_FRICTION - {"pressure-radial", "exact", "leak-channel"}
+            set(FIGURES)
+            - (OF_FRICTION | OF_PERIODS | OF_ADHESION)
+            - {"pressure-radial", "exact", "leak-channel", "fluid-pressure"}
         )
     ],
 )
