@@ -88,7 +88,7 @@ class AdhesiveSphere:
         --------
         >>> state = jkr_sphere(radius=1e-6, compliance=1e-6, work=0.05).at_radius(1e-7)
         >>> print(f"{state.force * 1e9:.2f} nN")
-        -23.69 nN
+        -34.12 nN
         """
         a = contact_radius / self._length
         if self.range == 0:
@@ -210,7 +210,7 @@ def maugis_dugdale(radius: float, compliance: float, work: float, range: float) 
     --------
     >>> sphere = maugis_dugdale(radius=1e-6, compliance=1e-6, work=0.05, range=1e-9)
     >>> print(f"{sphere.pull_off.force * 1e9:.1f} nN")
-    -235.8 nN
+    -235.6 nN
     """
     _require_positive(radius, compliance, work)
     require_positive("m", range=range)

@@ -14,6 +14,9 @@ from viscontact.reference import maugis_dugdale, tabor_number
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import prepare_run
 
+#: Grids and steps are coarse here.
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
 RADIUS, WORK, COMPLIANCE = 1e-3, 0.05, 1e-6
 GEL = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)  # 1/(4 G)
 RANGE = np.cbrt(RADIUS * (WORK * COMPLIANCE) ** 2)  # a Tabor number of 1

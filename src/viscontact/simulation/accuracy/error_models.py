@@ -36,7 +36,7 @@ class ErrorModel:
 #: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
 #: singular there, and the cells approximate the end by a staircase.
 _BULK = ErrorModel(
-    *(2.0, 1.05),
+    *(2.0, 1.15),
     at_end=ErrorModel(0.7, 1.2),
     of_time_error=0.1,
     of_left_out=0.1,
