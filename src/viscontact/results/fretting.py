@@ -1,4 +1,4 @@
-"""What friction did in a run: cycles with their heat, full sliding, largest slip, wear."""
+"""Cycles of friction with their heat, full sliding, largest slip and wear of a run."""
 
 from __future__ import annotations
 

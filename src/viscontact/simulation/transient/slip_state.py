@@ -1,4 +1,4 @@
-"""What a frictional contact keeps from step to step, and the tractions found in a step."""
+"""State of a frictional contact from step to step, and the tractions found in a step."""
 
 from __future__ import annotations
 

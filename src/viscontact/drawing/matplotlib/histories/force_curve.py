@@ -42,7 +42,7 @@ def force_curve(
     --------
     >>> import warnings
     >>> import viscontact as vc
-    >>> warnings.simplefilter("ignore", vc.AccuracyWarning)  # few cells, for an example
+    >>> warnings.filterwarnings("ignore", "the attraction at the edge", vc.AccuracyWarning)
     >>> gel = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)
     >>> load, grid = vc.triangle(approach=2e-6, rise=1.0), vc.Grid((32, 32), (2.4e-4, 2.4e-4))
     >>> sticks = {"adhesion": vc.Adhesion(0.05, range=2e-6), "errors": False}
