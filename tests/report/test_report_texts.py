@@ -149,3 +149,13 @@ def test_strain_of_a_steady_contact_is_that_of_its_passage(along: str) -> None:
     strains = ds.mean_pressure.values * (1 / shear + passage / viscosity) / 2
     stated = f"{strains.max():.2g}, at {1e3 * speeds[strains.argmax()]:g} mm/s"
     assert f"creep compliance at the same instant: {stated}" in said(ds)["Linear viscoelasticity"]
+
+
+def test_assumptions_about_the_contact_are_those_of_the_run() -> None:
+    plain = said(ellipse())
+    assert {"No friction", "No adhesion"} <= set(plain)
+    sticking = {"type": "Adhesion", "work": 0.05, "range": 2e-9, "strength": None}
+    found = said(with_case(ellipse(), adhesion=sticking, friction={"coefficient": 0.3}))
+    assert not {"No friction", "No adhesion"} & set(found)
+    assert "with a work of 50 mJ/m²" in found["Adhesion over the gap"]
+    assert "0.3 times the pressure" in found["Friction of Coulomb"]

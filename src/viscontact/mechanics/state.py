@@ -203,8 +203,8 @@ class ContactState:
     adhesion_energy : float or None
         Work that separating the surfaces from their gap would take [J].
     stability : float or None
-        Factor by which a small change of the attraction grows, below 1 of a stable contact [-];
-        NaN where it was not computed.
+        Factor by which a small change of the attraction returns, below 1 of a stable contact; a
+        state ends where it reaches 1. NaN once a force has pulled the bodies apart [-].
     stage_position : float or None
         Position of the stage on whose spring the body hangs [m]; None without one.
 

@@ -64,16 +64,38 @@ def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
             f"{_approach(ds)}"
         ),
     )
-    yield "No friction", "the contact transmits pressure only."
-    yield (
-        "No adhesion",
-        "the surfaces do not attract each other; contact ends where the pressure is zero.",
-    )
+    yield _friction(ds)
+    yield _adhesion(ds)
     yield (
         "Linear viscoelasticity",
         (f"twice the load gives twice the strain at any time, and {_clock(ds)}. {_strain(ds)}"),
     )
     yield "No inertia", "loads change slowly against the time that waves take through the contact."
+
+
+def _friction(ds: xr.Dataset) -> tuple[str, str]:
+    """What the contact transmits along the surface."""
+    friction = case_of(ds).get("friction")
+    if friction is None:
+        return "No friction", "the contact transmits pressure only."
+    coefficient = f"{float(friction['coefficient']):g}"
+    return (
+        "Friction of Coulomb",
+        f"the surfaces slip where the traction reaches {coefficient} times the pressure.",
+    )
+
+
+def _adhesion(ds: xr.Dataset) -> tuple[str, str]:
+    """What holds the surfaces together."""
+    if case_of(ds).get("adhesion") is None:
+        alone = "the surfaces do not attract each other; contact ends where the pressure is zero."
+        return "No adhesion", alone
+    work = format_quantity(recorded_object(ds, "adhesion", "report").work, "J/m²", 3)
+    return (
+        "Adhesion over the gap",
+        f"the attraction depends on the gap alone, whichever way it changes, with a work of {work} "
+        "per area, and contact ends where the gap opens.",
+    )
 
 
 def _clock(ds: xr.Dataset) -> str:

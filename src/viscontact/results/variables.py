@@ -327,7 +327,7 @@ SCALARS = {
     ),
     "stability": Variable(
         "1",
-        "factor by which a small change of the attraction grows; below 1 if stable",
+        "factor by which a small change of the attraction returns; below 1 if stable",
         label="Stability",
         rank=54,
         of=ADHESION,

@@ -108,7 +108,8 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     if control == "mixed":
         point = prepared.run.contact.largest_load[1]
         control = "approach" if point.force is None else "force"
-    title = "What to expect, by a quick elastic solve on few cells:"
+    without = "" if prepared.run.contact.adhesion is None else " without adhesion"
+    title = f"What to expect{without}, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
     time, _ = prepared.run.contact.largest_load

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.checks.adhesive_limits import expected_tail_warnings
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.half_space_theory import (
     body_warnings,
@@ -53,6 +54,8 @@ def predicted_warnings(
     The estimate is None without a load; `compliance` is the one that it was made with [1/Pa].
     """
     warnings = setup_warnings(run) | _range_warnings(run.problem) | _step_warnings(run.problem)
+    if run.law is not None:
+        warnings |= expected_tail_warnings(run.law, run.open_gap, run.grid)
     return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
 
 
@@ -123,7 +126,7 @@ def _range_warnings(problem: Problem) -> dict[str, str]:
 
 def _step_warnings(problem: Problem) -> dict[str, str]:
     """Warnings about given steps in which contact begins or ends; adaptive ones are short there."""
-    if problem.adaptive is not None:
+    if problem.chosen_steps is not None:
         return {}
     load, steps = problem.contact_load, problem.planned_steps
     times = np.array([step.time for step in steps])

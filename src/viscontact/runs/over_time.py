@@ -19,6 +19,7 @@ from viscontact.runs.progress_made import progress_made
 from viscontact.runs.run_memory import run_memory
 from viscontact.simulation.accuracy.coarser_results import History
 from viscontact.simulation.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
+from viscontact.simulation.checks.adhesive_limits import adhesion_rows
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.provenance import (
     contact_event_attributes,
@@ -157,4 +158,6 @@ class OverTime(Analysis[RunSetup, March]):
         else:
             steps = f"as needed for an error of {100 * self.contact.adaptive.tolerance:g} %"
         end = format_quantity(self.contact.end, "s")
-        return [*grid_error_rows(self.setup), ("time steps", f"{steps}, up to t = {end}")]
+        run = self.setup
+        sticks = [] if run.law is None else adhesion_rows(run.law, run.problem, run.grid)
+        return [*grid_error_rows(run), ("time steps", f"{steps}, up to t = {end}"), *sticks]

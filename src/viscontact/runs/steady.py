@@ -8,6 +8,7 @@ from typing import Literal
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
@@ -40,6 +41,7 @@ def steady(  # noqa: PLR0913
     progress: Progress | bool | None = None,
     errors: bool = True,
     temperature: TemperatureHistory | float | None = None,
+    adhesion: Adhesion | None = None,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
@@ -86,6 +88,8 @@ def steady(  # noqa: PLR0913
     temperature : float, optional
         Constant temperature of the bodies [K], to which the shifts of their materials take the
         laws; when left out, laws are used as they are.
+    adhesion : Adhesion, optional
+        Not supported in steady motion, and refused; leave it out.
 
     Returns
     -------
@@ -152,6 +156,7 @@ def steady(  # noqa: PLR0913
         fields=fields,
         motion=motion,
         temperature=temperature,
+        adhesion=adhesion,
     )
     problem = steady_problem(contact, motion)
     return solve(OverSpeed(prepare(problem, threads), errors), report)

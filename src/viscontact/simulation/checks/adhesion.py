@@ -127,11 +127,14 @@ def tail_warnings(law: CohesiveLaw, pressure: Floats, grid: Grid) -> dict[str, s
     ends = [each for each, repeats in zip(lines, grid.periodic, strict=True) if not repeats]
     largest = max((float(np.abs(each[[0, -1]]).max()) for each in ends), default=0.0)
     largest /= law.strength
-    if largest <= NOTABLE_TAIL:
-        return {}
+    return {} if largest <= NOTABLE_TAIL else tail_warning(largest)
+
+
+def tail_warning(tail: float) -> dict[str, str]:
+    """Warning of an attraction at the edge of the grid, over the strength [-]."""
     return {
         "tail": (
-            f"the attraction at the edge of the grid is {largest:.2g} of the strength: what lies "
+            f"the attraction at the edge of the grid is {tail:.2g} of the strength: what lies "
             "beyond is missing in the force; enlarge the grid"
         )
     }

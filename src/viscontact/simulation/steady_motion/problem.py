@@ -56,6 +56,11 @@ class SteadyProblem:
 
 def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
+    if contact.adhesion is not None:
+        raise ValueError(
+            "adhesion: it is not supported in steady motion; leave it out, or press and withdraw "
+            "the body without a motion (simulate)"
+        )
     problem = SteadyProblem(contact, motion, constant_load(contact.contact_load))
     if contact.temperature is not None:
         require_constant(contact.temperature)

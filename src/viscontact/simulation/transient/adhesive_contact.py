@@ -21,6 +21,7 @@ from viscontact.mechanics.contact.adhesion.equilibrium import (
     traction_at,
 )
 from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, AdhesiveSolution
+from viscontact.mechanics.contact.adhesion.stability import stability
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.state import Outcome
@@ -43,6 +44,7 @@ JUMP = 1.5
 class AdhesiveStep:
     """Solution of a step, its outcome, and its change of the force over the largest one allowed."""
 
+    problem: AdhesiveProblem
     solution: AdhesiveSolution
     outcome: Outcome
     change: float  # inf of a jump [-]
@@ -83,9 +85,9 @@ class AdhesiveContact:
             near = solve_near(problem, self._domain, Guess(guess.values, motion), self._tolerance)
             change = self._change(near) if near.converged else math.inf
             if change <= (JUMP if step.is_shortest else 1.0):
-                return AdhesiveStep(near, _outcome(near), change)
+                return AdhesiveStep(problem, near, _outcome(near), change)
             if not (step.is_shortest or step.is_jump):
-                return AdhesiveStep(near, _outcome(near), change, is_too_long=True)
+                return AdhesiveStep(problem, near, _outcome(near), change, is_too_long=True)
         return self._jumped(problem)
 
     def accept(self, step: AdhesiveStep) -> None:
@@ -93,6 +95,12 @@ class AdhesiveContact:
         self._traction = step.solution.traction
         self._force = self._sum(step.solution.found.pressure)
         self._attraction = self._sum(step.solution.traction)
+
+    def stability(self, step: AdhesiveStep) -> float:
+        """Factor by which a small change of the attraction in a step returns; NaN if unknown."""
+        if step.outcome not in (Outcome.CONVERGED, Outcome.NO_CONTACT):
+            return math.nan
+        return stability(step.problem, self._domain, step.solution)
 
     def restart_data(self) -> RestartData:
         """Return the attraction and force of the last step as plain data."""
@@ -120,9 +128,10 @@ class AdhesiveContact:
             traction = self._at_first(problem)
         found = solve_from(problem, self._domain, traction, self._tolerance)
         if found is None:
-            return AdhesiveStep(released(problem, self._domain), Outcome.PULLED_OFF, math.inf)
+            apart = released(problem, self._domain)
+            return AdhesiveStep(problem, apart, Outcome.PULLED_OFF, math.inf)
         change = math.inf if self._change(found) > 1 else 1.0
-        return AdhesiveStep(found, _outcome(found), change)
+        return AdhesiveStep(problem, found, _outcome(found), change)
 
     def _at_first(self, problem: AdhesiveProblem) -> Floats:
         """Attraction from which the first contact is found [Pa]."""
@@ -143,7 +152,7 @@ class AdhesiveContact:
         gap = problem.contact.open_gap - self._domain.whole.plane.field(motion)
         traction = traction_at(problem, self._domain, gap)
         found = released(problem, self._domain, traction, motion)
-        return AdhesiveStep(found, _outcome(found), 1.0)
+        return AdhesiveStep(problem, found, _outcome(found), 1.0)
 
     def _change(self, solution: AdhesiveSolution) -> float:
         force, attraction = self._sum(solution.found.pressure), self._sum(solution.traction)

@@ -21,6 +21,7 @@ from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.adhesion import tail_warnings
+from viscontact.simulation.checks.adhesive_limits import front_warnings
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.simulation.checks.material import (
@@ -49,6 +50,7 @@ from viscontact.simulation.transient.warning_rules import (
     loading_warnings,
     setup_warnings,
 )
+from viscontact.simulation.transient.zone_passage import ZonePassage
 from viscontact.units.formatting import format_quantity
 
 #: Growth of the largest pressure since the last check for corners that calls for another [-].
@@ -76,6 +78,7 @@ class Observer:
         clocks = run.problem.clocks
         self._limited = limited_bodies(run.problem.bodies, clocks, self._since) if warns else ()
         self._events = None if run.law is None else ContactEvents()
+        self._passage = None if run.law is None else ZonePassage()
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -135,6 +138,9 @@ class Observer:
         state = replace(state, approach=state.approach - grown, **moved)
         if self._events is not None:
             self._events.after(state)
+        if self._passage is not None:
+            passed = self._passage.after(state)
+            self.warn(front_warnings(passed, self._run.problem.data_times))
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -202,6 +208,7 @@ class Observer:
             "peak_checked": self._peak_checked,
             "motion": self._motion.restart_data(),
             "events": self._events and self._events.restart_data(),
+            "passage": self._passage and self._passage.restart_data(),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -226,6 +233,8 @@ class Observer:
         self._motion.restore(restart_data["motion"])
         if self._events is not None:
             self._events.restore(restart_data["events"])
+        if self._passage is not None:
+            self._passage.restore(restart_data["passage"])
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""

@@ -25,7 +25,8 @@ class StepSolution:
     iterations: int
     outcome: Outcome
     resolved: bool  # False where the step was long against the law
-    stability: float = math.nan  # factor by which a small change grows; < 1 if stable [-]
+    #: Factor by which a small change of the attraction returns; NaN between reported states [-].
+    stability: float = math.nan
     time_error: float = 0.0  # estimated relative error of the pressure by the steps so far [-]
     # Energy that the bodies lose in the step of a moving contact [J]; NaN if unknown.
     heat: float = math.nan

@@ -213,7 +213,8 @@ class Stepper:
             largest = max(largest, -float(trial.reference.fields[1].min()))
             self._adhesive_accept(trial.adhesive)
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
-        return _on_full_grid(self._domain, trial, time_error, loss)
+        found = _on_full_grid(self._domain, trial, time_error, loss)
+        return replace(found, stability=self._stability(step, trial))
 
     def _known_from(self, trial: TrialStep) -> ElasticReference:
         """Reference that the next guess is extrapolated from."""
@@ -322,6 +323,12 @@ class Stepper:
     def _adhesive_accept(self, step: AdhesiveStep) -> None:
         if self._adhesive is not None:
             self._adhesive.accept(step)
+
+    def _stability(self, step: TimeStep, trial: TrialStep) -> float:
+        """Stability of a state that is reported; NaN of others, and without adhesion [-]."""
+        if self._adhesive is None or trial.adhesive is None or step.requested is None:
+            return math.nan
+        return self._adhesive.stability(trial.adhesive)
 
     def _is_separated(self, problem: ContactProblem, motion: Floats) -> bool:
         plane = self._domain.whole.plane.field(motion)

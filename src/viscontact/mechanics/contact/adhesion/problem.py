@@ -100,7 +100,6 @@ class AdhesiveSolution(ContactSolution):
     """Solution of an adhesive contact; its residual is the larger one of gap and traction."""
 
     traction: Floats  # attraction, positive [Pa]
-    stability: float = np.nan  # factor by which a small change falls or grows; < 1 if stable [-]
 
 
 @dataclass(frozen=True, eq=False)

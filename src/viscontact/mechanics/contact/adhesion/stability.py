@@ -1,0 +1,103 @@
+"""Stability of an adhesive contact: the factor by which a small change of the attraction returns.
+
+A small change y of the attraction moves the surfaces by z = S y where they do not touch, with the
+contact and the load held, and this changes the attraction by D z, D = -sigma'. The energy is least
+where the largest eigenvalue of D S is below 1 (the change dies out in the descent), and a state
+ends where it reaches 1. S is symmetric and positive: the eigenvalue is the largest one of D in the
+metric of S, which the Rayleigh-Ritz method finds from few vectors, from below.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import eigh
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.contact.adhesion.newton import LinearStep
+from viscontact.mechanics.contact.adhesion.problem import (
+    AdhesiveProblem,
+    AdhesiveResidual,
+    Attraction,
+    attraction,
+)
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import ContactSolution
+from viscontact.mechanics.contact.problem import Guess
+from viscontact.mechanics.contact.rigid_balance import Constraints
+
+#: Vectors of the Rayleigh-Ritz method for a law that decreases, and for one that rises first; each
+#: costs the solution of a linear system. They leave an error below a percent.
+VECTORS, VECTORS_RISING = 2, 4
+
+#: Slopes below this part of the largest one are none [-].
+NEGLIGIBLE_SLOPE = 1e-6
+
+
+def stability(
+    problem: AdhesiveProblem,
+    domain: ContactDomain,
+    solution: ContactSolution,
+) -> float:
+    """Factor by which a small change of the attraction returns; < 1 if stable."""
+    pulled = attraction(problem.law, solution.gap, domain.periodic)
+    if problem.contact.compliance == 0:
+        return 0.0  # the surfaces do not move
+    falls = np.where(solution.in_contact, 0.0, -pulled.slope)
+    falls[~np.isfinite(solution.gap)] = 0.0
+    if not falls.any():
+        return 0.0
+    change = np.where(falls > 0, falls, 0.0)
+    changes, moves = [], []
+    for _ in range(VECTORS if problem.law.decreasing is problem.law else VECTORS_RISING):
+        changes.append(change * (problem.law.strength / np.abs(change).max()))
+        moves.append(_opened_by(problem, domain, solution, falls, changes[-1]))
+        change = falls * moves[-1]
+        if not change.any():
+            break
+    return _largest_ratio(changes, moves, falls)
+
+
+def _largest_ratio(changes: list[Floats], moves: list[Floats], falls: Floats) -> float:
+    """Largest eigenvalue of D S on the space of some changes y, with the moves S y."""
+    y, z = (np.array([each.ravel() for each in fields]) for fields in (changes, moves))
+    metric = np.einsum("ik,jk->ij", y, z)
+    matrix = np.einsum("ik,k,jk->ij", z, falls.ravel(), z)
+    try:
+        values = eigh((matrix + matrix.T) / 2, (metric + metric.T) / 2, eigvals_only=True)
+    except np.linalg.LinAlgError:  # the changes are multiples of one another
+        values = np.array([matrix[0, 0] / metric[0, 0]])
+    return float(values.max())
+
+
+def _opened_by(
+    problem: AdhesiveProblem,
+    domain: ContactDomain,
+    solution: ContactSolution,
+    falls: Floats,
+    change: Floats,
+) -> Floats:
+    """How far the surfaces approach each other under a change of the attraction [m]."""
+    # The equations of Newton's method for an attraction that does not depend on the gap.
+    nothing = np.zeros(domain.shape)
+    held = AdhesiveResidual(
+        np.where(solution.in_contact, 0.0, 1.0),
+        Attraction(change, nothing),
+        solution.in_contact,
+        *(0.0, 1.0, 0.0),
+    )
+    start = Guess(np.zeros((2, *domain.shape)), np.zeros(3))
+    system = LinearStep.of(_unloaded(problem), domain, start, held, 1e-3)
+    motion = system.solve(start.pressure)
+    moved = problem.contact.compliance * domain.convolution.apply(start.pressure)
+    moved -= domain.whole.plane.field(motion)
+    return np.where(falls == 0, 0.0, -moved)
+
+
+def _unloaded(problem: AdhesiveProblem) -> AdhesiveProblem:
+    """The same body without load: what is free is in balance, what is given is held."""
+    constraints = problem.contact.constraints
+    force, moment_x, moment_y = (0.0 if free else None for free in constraints.free)
+    held = Constraints((force, moment_x, moment_y))
+    return replace(problem, contact=replace(problem.contact, constraints=held))
