@@ -89,13 +89,15 @@ def critical_constriction(gap: Floats, opened: Bools, flow: FlowAxis) -> tuple[f
         is_open = channel(through & (gap >= levels[middle]), flow).any()
         low, high = (middle, high) if is_open else (low, middle)
     level = float(levels[low])
-    kept = through & (gap >= level)
-    for i, j in np.argwhere(kept & (gap == level)).tolist():
-        without = kept.copy()
-        without[i, j] = False
-        if not channel(without, flow).any():
-            return level, i, j
-    return level, *np.argwhere(kept & (gap == level))[0].tolist()
+    wider, narrowest = through & (gap > level), np.argwhere(through & (gap == level))
+    closed, opens = 0, len(narrowest)  # with so many of the narrowest cells in addition
+    while opens - closed > 1:
+        middle = (closed + opens) // 2
+        kept = wider.copy()
+        kept[tuple(narrowest[:middle].T)] = True
+        closed, opens = (closed, middle) if channel(kept, flow).any() else (middle, opens)
+    i, j = narrowest[opens - 1].tolist()
+    return level, i, j
 
 
 def _seams(labels: Integers, axis: int) -> Iterable[tuple[int, int]]:

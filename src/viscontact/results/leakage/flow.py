@@ -5,6 +5,12 @@ There is an unknown for each cell of the channels. Between two cells the conduct
 their halves in series (the harmonic mean of h³/12). The flow of unit viscosity under a unit
 difference of pressure over the length L is T W/L, with the width W and the transmissivity T [m³].
 
+A border of contact that is oblique to the cells is a staircase. Faces alone let nothing flow past
+its steps, so that the wall seems to be up to 0.35 cells further in the fluid. Of the four cells
+around a corner, three open ones and one in contact stand for the step of a wall at 45°: the fluid
+is on the whole of their square, and not on half of it as the two faces have it. Each half of a face
+that ends at such a corner therefore counts twice. Walls along the cells and at 45° are then exact.
+
 References
 ----------
 O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157; S. V. Patankar, Numerical Heat Transfer and Fluid
@@ -49,6 +55,7 @@ class ChannelFlow:
     flow: FlowAxis
     length: float  # along the flow [m]
     width: float  # across it [m]
+    at_steps: float  # of the flow, what the steps of the border let pass in addition, at least [m³]
 
     @cached_property
     def sections(self) -> Floats:
@@ -61,6 +68,11 @@ class ChannelFlow:
     def transmissivity(self) -> float:
         """T [m³]: h³/12 between parallel plates."""
         return float(self.sections.mean()) * self.length / self.width
+
+    @property
+    def of_steps(self) -> float:
+        """Transmissivity that the steps of staircase borders add, at least [m³]."""
+        return self.at_steps * self.length / self.width
 
     @property
     def imbalance(self) -> float:
@@ -85,7 +97,8 @@ def solved_flow(
     length, width = (shape[a] * cell_size[a] for a in (flow.axis, 1 - flow.axis))
     shown = np.where(unknown >= 0, pressure + faces.mean_fall, np.nan)
     factor = scale**3 / 12
-    return ChannelFlow(shown, factor * flux_x, factor * flux_y, flow, length, width)
+    steps = factor * faces.dissipation_at_steps(pressure)
+    return ChannelFlow(shown, factor * flux_x, factor * flux_y, flow, length, width, steps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +124,24 @@ class _Faces:
         if not self.flow.joined[axis]:
             np.moveaxis(found, axis, 0)[-1] = 0.0
         dx, dy = self.cell_size
-        return found * (dy / dx if axis == 0 else dx / dy)
+        return found * self._widths[axis] * (dy / dx if axis == 0 else dx / dy)
+
+    @cached_property
+    def _widths(self) -> tuple[Floats, Floats]:
+        """Widths of the faces that count, over their own, along x and along y (nx, ny)."""
+        return self._width(0), self._width(1)
+
+    def _width(self, axis: int) -> Floats:
+        closed, across = self.gap <= 0, 1 - axis
+        beyond = np.roll(closed, -1, axis)
+        width = np.ones(self.gap.shape)
+        for side, border in ((1, 0), (-1, -1)):
+            # Of the cells beside both cells of a face, one is open and one is not.
+            steps = np.roll(closed, side, across) ^ np.roll(beyond, side, across)
+            if not self.flow.joined[across]:
+                np.moveaxis(steps, across, 0)[border] = False
+            width += 0.5 * steps
+        return width
 
     @cached_property
     def ends(self) -> tuple[Floats, Floats]:
@@ -194,10 +224,21 @@ class _Faces:
 
     def fluxes(self, pressure: Floats) -> tuple[Floats, Floats]:
         """Flows through the face beyond each cell along x and y."""
-        found = []
-        for axis, conductance in enumerate(self.conductances):
-            fall = pressure - np.roll(pressure, -1, axis)
-            if axis == self.flow.axis and self.flow.ends == "period":
-                fall = fall + 1 / self.gap.shape[axis]
-            found.append(conductance * fall)
-        return found[0], found[1]
+        falls = self._falls(pressure)
+        return self.conductances[0] * falls[0], self.conductances[1] * falls[1]
+
+    def _falls(self, pressure: Floats) -> tuple[Floats, Floats]:
+        """Falls of the pressure from each cell to the next one along x and y."""
+        falls = [pressure - np.roll(pressure, -1, axis) for axis in (0, 1)]
+        if self.flow.ends == "period":
+            falls[self.flow.axis] = falls[self.flow.axis] + 1 / self.gap.shape[self.flow.axis]
+        return falls[0], falls[1]
+
+    def dissipation_at_steps(self, pressure: Floats) -> float:
+        """Flow that is due to the widths added at steps.
+
+        The flow is the least dissipation Σ k (Δp)² of all pressures, so that this is the least
+        by which it is larger than without them.
+        """
+        parts = zip(self.conductances, self._widths, self._falls(pressure), strict=True)
+        return float(sum(((1 - 1 / wide) * k * fall**2).sum() for k, wide, fall in parts))

@@ -111,10 +111,14 @@ class InstantLeakage:
 
     @cached_property
     def error(self) -> float:
-        """Difference of T by the mean gap at faces, which deviates to the other side [m³]."""
+        """Error of T, by the faces between cells and by the steps of the contact's border [m³].
+
+        With the mean gap at faces T deviates to the other side.
+        """
         if self.solution is None:
             return 0.0
-        return abs(self._solved(of_mean_gap).transmissivity - self.transmissivity)
+        by_faces = abs(self._solved(of_mean_gap).transmissivity - self.transmissivity)
+        return by_faces + self.solution.of_steps
 
     @cached_property
     def row(self) -> dict[str, float]:
