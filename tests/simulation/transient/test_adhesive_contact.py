@@ -260,7 +260,10 @@ def test_rough_periodic_surface_jumps_spot_by_spot_and_holds():
             {"load": vc.step(approach=1e-6, stage_stiffness=1.0), "adhesion": None},
             "load.stage_stiffness: a stage on a spring is computed for bodies that adhere",
         ),
-        ({"grid": None}, "grid: with adhesion no grid is chosen"),
+        (
+            {"grid": None, "indenter": vc.Cone(0.3)},
+            "grid: with adhesion a grid is chosen for bodies that are round",
+        ),
         ({"grid": grid(8)}, "cells of .* lie across the cohesive zone"),
         ({"material": ZENER, "adhesion": vc.Adhesion(WORK)}, "adhesion.range: must be given"),
         ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-5])}, "adhesion: a body that moves"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -55,17 +56,12 @@ def _refusals(problem: Problem) -> Iterator[str]:
         )
     if problem.friction is not None:
         yield "adhesion: friction is not supported with adhesion; leave one of them out"
-    if not isinstance(problem.grid, Grid):
-        yield (
-            "grid: with adhesion no grid is chosen by the run; give one whose cells resolve the "
-            "cohesive zone, as in grid=vc.Grid(shape, size)"
-        )
     if load.control == "force" and problem.compliance.instant == 0:
         yield (
             "adhesion: under a given force the bodies jump into contact at time 0, but the law has "
             "no instant compliance; prescribe the approach, or give the law an instant compliance"
         )
-    if _has_no_range(problem.adhesion) and not problem.surface.creep.is_elastic:
+    if has_no_range(problem.adhesion) and not problem.surface.creep.is_elastic:
         yield (
             "adhesion.range: must be given for bodies that creep, as it sets the speeds at which "
             "they hold more; give range or strength"
@@ -77,7 +73,7 @@ def law_on(problem: Problem, grid: Grid) -> CohesiveLaw:
     adhesion = problem.adhesion
     assert adhesion is not None  # the caller has seen one
     spacing = math.sqrt(grid.cell_area)
-    if _has_no_range(adhesion):
+    if has_no_range(adhesion):
         strength = math.sqrt(_zone(1.0, adhesion.work, problem) / (CHOSEN_CELLS * spacing))
         adhesion = Adhesion(adhesion.work, strength=strength, law=adhesion.law)
     law = adhesion.cohesive_law
@@ -93,32 +89,22 @@ def law_on(problem: Problem, grid: Grid) -> CohesiveLaw:
     return law
 
 
+def resolved_on(problem: Problem, grid: Grid) -> Problem:
+    """The problem with adhesion of so long a range that the cells of a rough grid resolve it."""
+    adhesion = problem.adhesion
+    if adhesion is None or has_no_range(adhesion):
+        return problem
+    law = adhesion.cohesive_law
+    missing = ENOUGH_CELLS / cells_across_zone(law, problem, grid)
+    if missing <= 1:
+        return problem
+    longer = law.range * math.sqrt(missing)  # the zone is as wide as the square of the range
+    return replace(problem, adhesion=Adhesion(adhesion.work, range=longer, law=adhesion.law))
+
+
 def cells_across_zone(law: CohesiveLaw, problem: Problem, grid: Grid) -> float:
     """Cells across the cohesive zone of the relaxed body, π w/(8 J σ0²)."""
     return _zone(law.strength, law.work, problem) / math.sqrt(grid.cell_area)
-
-
-def zone_warnings(law: CohesiveLaw, problem: Problem, grid: Grid) -> dict[str, str]:
-    """Warn of a cohesive zone of few cells, and of a range that the cells have chosen."""
-    if _has_no_range(problem.adhesion):
-        length = format_quantity(law.work / law.strength, "m", 3)
-        return {
-            "zone": (
-                f"the range of the attraction, {length}, is the shortest that the cells resolve: "
-                "the bodies hold more than in the limit of short ranges (JKR), at pull-off by 4 to "
-                "14 % in trials; compare with smaller cells"
-            )
-        }
-    across = cells_across_zone(law, problem, grid)
-    enough = ENOUGH_ABRUPT if law.is_abrupt else ENOUGH_CELLS
-    if across >= enough * (1 - 1e-9):
-        return {}
-    return {
-        "zone": (
-            f"{across:.2g} cells lie across the cohesive zone; with fewer than {enough:g} the "
-            "largest pull is off by more than a percent; use smaller cells"
-        )
-    }
 
 
 def tail_warnings(law: CohesiveLaw, pressure: Floats, grid: Grid) -> dict[str, str]:
@@ -140,7 +126,8 @@ def tail_warning(tail: float) -> dict[str, str]:
     }
 
 
-def _has_no_range(adhesion: Adhesion | None) -> bool:
+def has_no_range(adhesion: Adhesion | None) -> bool:
+    """True if the cells are to choose the range."""
     return adhesion is not None and adhesion.range is None and adhesion.strength is None
 
 

@@ -12,7 +12,14 @@ from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.mechanics.problem.problem import DataTimes, Problem
-from viscontact.simulation.checks.adhesion import NOTABLE_TAIL, cells_across_zone, tail_warning
+from viscontact.simulation.checks.adhesion import (
+    ENOUGH_ABRUPT,
+    ENOUGH_CELLS,
+    NOTABLE_TAIL,
+    cells_across_zone,
+    has_no_range,
+    tail_warning,
+)
 from viscontact.units.formatting import format_number, format_quantity
 
 #: Tabor numbers up to which the limit of long ranges (DMT) holds within some percents, and from
@@ -21,6 +28,15 @@ DMT_BELOW, JKR_ABOVE = 0.1, 5.0
 
 #: Pull-off forces of an elastic sphere in the limits, over pi w R [-].
 JKR_PULL, DMT_PULL = 1.5, 2.0
+
+#: Excess of the pull-off force over that of JKR at some Tabor numbers, by laws: of Dugdale's by
+#: Maugis 1992, of others computed on grids of three cells or more across the cohesive zone [-].
+JKR_EXCESS_AT = (0.5, 1.0, 2.0, 3.0, 5.0)
+JKR_EXCESS = {
+    "exponential": (0.184, 0.110, 0.050, 0.028, 0.012),
+    "lennard-jones": (0.190, 0.112, 0.054, 0.031, 0.013),
+    "dugdale": (0.130, 0.0569, 0.0187, 0.0089, 0.0034),
+}
 
 
 def effective_radius(indenter: Indenter) -> float | None:
@@ -72,6 +88,41 @@ def _regime(number: float) -> str:
     if number >= JKR_ABOVE:
         return f"short range, JKR's limit applies (above {JKR_ABOVE:g})"
     return f"between DMT's limit (below {DMT_BELOW:g}) and JKR's (above {JKR_ABOVE:g})"
+
+
+def zone_warnings(law: CohesiveLaw, problem: Problem, grid: Grid) -> dict[str, str]:
+    """Warn of a cohesive zone of few cells, and of a range that the cells have chosen."""
+    if has_no_range(problem.adhesion):
+        length, excess = format_quantity(law.range, "m", 3), _excess(law, problem)
+        return {
+            "zone": (
+                f"the range of the attraction, {length}, is the shortest that the cells resolve: "
+                f"the bodies hold more than in the limit of short ranges (JKR){excess}; compare "
+                "with smaller cells"
+            )
+        }
+    across = cells_across_zone(law, problem, grid)
+    enough = ENOUGH_ABRUPT if law.is_abrupt else ENOUGH_CELLS
+    if across >= enough * (1 - 1e-9):
+        return {}
+    return {
+        "zone": (
+            f"{across:.2g} cells lie across the cohesive zone; with fewer than {enough:g} the "
+            "largest pull is off by more than a percent; use smaller cells"
+        )
+    }
+
+
+def _excess(law: CohesiveLaw, problem: Problem) -> str:
+    """How much more an elastic sphere of the range holds than one of a short range, in words."""
+    numbers, adhesion = tabor_numbers(law, problem), problem.adhesion
+    assert adhesion is not None  # the caller has seen one
+    if numbers is None or numbers[1] < JKR_EXCESS_AT[0]:
+        return ""
+    known = np.log(JKR_EXCESS_AT), np.log(JKR_EXCESS[adhesion.law])
+    excess = math.exp(float(np.interp(math.log(numbers[1]), *known)))
+    tabor = format_number(numbers[1], 2)
+    return f", a sphere of the Tabor number {tabor} by {100 * excess:.2g} % at pull-off"
 
 
 def expected_tail_warnings(law: CohesiveLaw, open_gap: Floats, grid: Grid) -> dict[str, str]:

@@ -12,6 +12,8 @@
 6. State the expected errors, no smaller than the error of a height map's facets.
 7. Make cells smaller that are larger than a requested limit (`cell_limit`), or than the ring that
    slips under friction allows (`slip_ring`).
+
+Bodies that adhere have a grid of their own (`adhesive_mesh`).
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.rounding import rounding_remedy
 from viscontact.bodies.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.meshing.adhesive_mesh import adhesive_grid
 from viscontact.simulation.meshing.body_fit import straight_ends
 from viscontact.simulation.meshing.cell_limit import with_small_cells
 from viscontact.simulation.meshing.contact_extent import (
@@ -83,6 +86,8 @@ class Mesh:
 
 def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     """Choose the grid of a contact problem, up to `end` [s]; ValueError if none is suitable."""
+    if problem.adhesion is not None:
+        return Mesh(adhesive_grid(problem, end), {}, {})
     indenter, load, compliance = problem.indenter, problem.contact_load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
     # Step 1: the contacts of the history, and the size of the grid.

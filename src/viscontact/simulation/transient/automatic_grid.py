@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
@@ -25,6 +26,7 @@ def auto_grid(  # noqa: PLR0913
     end: float | None = None,
     indenter_material: Material | Layered | None = None,
     temperature: TemperatureHistory | float | None = None,
+    adhesion: Adhesion | None = None,
 ) -> Grid:
     """Choose a grid for a run.
 
@@ -47,6 +49,9 @@ def auto_grid(  # noqa: PLR0913
         Material of the indenter; rigid when left out.
     temperature : TemperatureHistory or float, optional
         Temperature of the bodies over time, or a constant one [K], as in `simulate`.
+    adhesion : Adhesion, optional
+        Adhesion between the bodies, round where they touch: the cells resolve the cohesive zone,
+        and the attraction is negligible at the edge.
 
     Returns
     -------
@@ -81,6 +86,7 @@ def auto_grid(  # noqa: PLR0913
         *(indenter, material, load, request),
         indenter_material=indenter_material,
         temperature=as_temperature(temperature),
+        adhesion=adhesion,
     )
     check_endless(indenter, None)
     return choose_mesh(problem, end).grid

@@ -17,6 +17,7 @@ from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation.checks.adhesion import resolved_on
 from viscontact.simulation.checks.problem_checks import check_mixed
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.mesh_choice import choose_mesh
@@ -51,7 +52,8 @@ def carried_out(problem: Problem, threads: int = 1, *, roughly: bool = False) ->
         found = _rough_march(problem, latest)
         grid = _grid_for(problem, found)
     elif roughly:
-        found = _search(_with_few_steps(problem), _coarse(grid), latest)
+        few = _coarse(grid)
+        found = _search(resolved_on(_with_few_steps(problem), few), few, latest)
     if not roughly:
         found = _search(problem, grid, latest, threads)
     return _under_history(problem, grid, found, roughly=roughly)
@@ -94,7 +96,7 @@ def _rough_march(problem: Problem, latest: float) -> tuple[EventSearch, MixedHis
     for _ in range(ROUGH_MARCHES):
         grid = Grid((ROUGH_CELLS, ROUGH_CELLS), (float(size[0]), float(size[1])))
         try:
-            found = _search(easy, grid, latest)
+            found = _search(resolved_on(easy, grid), grid, latest)
         except (DomainError, ConvergenceError):  # too small, or cells of an awkward size
             size *= ENLARGED
             continue

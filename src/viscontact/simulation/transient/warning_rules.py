@@ -11,7 +11,7 @@ from viscontact.bodies.materials.layers import materials_of
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
-from viscontact.simulation.checks.adhesion import zone_warnings
+from viscontact.simulation.checks.adhesive_limits import zone_warnings
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.friction import coupling_warnings

@@ -25,12 +25,16 @@ from viscontact.mechanics.contact.problem import ContactProblem, Guess
 CONTACT_TOLERANCE = 1e-7
 
 #: Iterations of one call.
-MAX_ITERATIONS = 300
+MAX_ITERATIONS = 600
 
 #: Change of the attraction in one iteration, in strengths, below which the iterates are near a
 #: state, or pass the place of one that has just ceased to exist; those are passed in steps of this
 #: length. Ratio of successive changes up to which they approach a state [-].
 NEAR, CONVERGES = 3e-2, 0.8
+
+#: The length where the law ends abruptly, as its front changes the cells that it crosses alone: a
+#: change of the strength takes it over one cell.
+LONGEST_ABRUPT = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +65,10 @@ class Descent:
 
     def run(self) -> Descended:
         """Iterate until the attraction approaches a state, or turns back from one it has passed."""
-        near = NEAR * self._problem.law.strength
+        law = self._problem.law
+        near, longest = (
+            part * law.strength for part in (NEAR, LONGEST_ABRUPT if law.is_abrupt else NEAR)
+        )
         while True:
             before, last = self._traction, self._last
             found = self._iterate()
@@ -69,14 +76,15 @@ class Descent:
             self.iterations += 1
             if found.detached or self.is_spent:
                 return found
-            if last is None or found.change > near:
+            if last is None or found.change > longest:
                 continue
             turns = found.growth * last.growth < 0
-            if turns or found.change <= CONVERGES * last.change or found.change == 0:
+            slows = turns or found.change <= CONVERGES * last.change or found.change == 0
+            if slows and found.change <= near:
                 return found
-            # Hardly slower than before: a step along the same way, of the length that is near.
-            way = found.traction - before
-            self._traction = np.maximum(before + (near / found.change) * way, 0.0)
+            if not slows:  # a longer step along the same way
+                way = found.traction - before
+                self._traction = np.maximum(before + (longest / found.change) * way, 0.0)
 
     def _iterate(self) -> Descended:
         """Contact under the attraction so far, and that of its gap."""
