@@ -17,6 +17,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.region import ShearDomain
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
@@ -106,7 +107,7 @@ class FrictionalContact:
             shift_constraints(self._run, point, before.motion),
             self._coefficient,
         )
-        if solution.pressure.any():
+        if solution.in_contact.any():
             found = self._solved(step, known)
             after = before.after(solution, found, self._coefficient, grid.cell_area)
         else:
@@ -134,7 +135,7 @@ class FrictionalContact:
 
     def _solved(self, step: TimeStep, known: SlipStep) -> StepSlip:
         """Tractions of a step in contact."""
-        region = self._domain.region_of(known.before.touched | (known.solution.pressure > 0))
+        region = self._domain.region_of(known.before.touched | known.solution.in_contact)
         found = solved_on(self._run, self._domain, region, known, self._guess(step))
         return step_slip(found, known.constraints, self._domain, region, known.carried)
 
@@ -164,7 +165,7 @@ class FrictionalContact:
         """Return the state after a step as plain data."""
         return {
             "history": self._history.restart_data(),
-            "state": vars(self._state),
+            "state": vars(self._state) | {"contact": vars(self._state.contact)},
             "trend": list(self._trend),
             "widest": self._widest,
         }
@@ -172,7 +173,8 @@ class FrictionalContact:
     def restore(self, restart_data: RestartData) -> None:
         """Continue the same run from restart data."""
         self._history.restore(restart_data["history"])
-        self._state = SlipState(**restart_data["state"])
+        state = restart_data["state"]
+        self._state = SlipState(**state | {"contact": NormalContact(**state["contact"])})
         trend, duration = restart_data["trend"]
         self._trend = trend, duration
         self._widest = restart_data["widest"]

@@ -56,7 +56,7 @@ def slip_fields(after: SlipState, step: StepSlip) -> dict[str, Any]:
 
 def grip_of(grid: Grid, step: SlipStep, after: SlipState, slip_fraction: float) -> Grip:
     """What the contact carries at the end of a step."""
-    cells, held = (int(np.count_nonzero(each.pressure > 0)) for each in (after, step.before))
+    cells, held = (each.contact.cells for each in (after, step.before))
     force = float(np.hypot(*step.constraints.resultants[:2]))
     slipping = round(cells * slip_fraction)
     on_line = min(grid.shape) == 1

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
 from viscontact.mechanics.contact.friction.discs import lengths
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import SlipSolution
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
 from viscontact.mechanics.contact.friction.rigid_shift import ShiftConstraints
@@ -65,8 +66,7 @@ class SlipState:
     traction: Floats  # [Pa], (2, nx, ny)
     slip: Floats  # since the contact of each cell [m], (2, nx, ny)
     work: Floats  # of friction per area since the start [J/m²], (nx, ny)
-    pressure: Floats  # at the end of the step before [Pa], (nx, ny)
-    gap: Floats  # [m], (nx, ny)
+    contact: NormalContact  # at the end of the step before
     touched: Bools  # cells that have carried a traction
     motion: Floats  # shifts [m] and rotation [rad] of the body
     forces: Floats  # along x and y [N] and torque [N m]
@@ -76,8 +76,8 @@ class SlipState:
     def at_first(cls, gap: Floats) -> SlipState:
         """State before a run, of bodies that just touch."""
         pair, field = np.zeros((2, *gap.shape)), np.zeros(gap.shape)
-        touched = np.zeros(gap.shape, bool)
-        return cls(pair, pair, field, field, gap, touched, np.zeros(3), np.zeros(3))
+        contact = NormalContact.apart(gap)
+        return cls(pair, pair, field, contact, contact.in_contact, np.zeros(3), np.zeros(3))
 
     def on(self, enlargement: GridEnlargement) -> SlipState:
         """The same state on a larger grid."""
@@ -93,8 +93,7 @@ class SlipState:
             traction=embedded(self.traction),
             slip=embedded(self.slip),
             work=embedded(self.work),
-            pressure=embedded(self.pressure),
-            gap=embedded(self.gap, np.inf),
+            contact=self.contact.on(embedded),
             touched=embedded(self.touched, False),
         )
 
@@ -102,18 +101,17 @@ class SlipState:
         self, solution: StepSolution, step: StepSlip, coefficient: float, cell_area: float
     ) -> SlipState:
         """State after a step in contact."""
-        pressure = solution.pressure
+        contact = solution.contact
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
-        mean = coefficient * (self.pressure + pressure) / 2
+        mean = coefficient * (self.contact.pressure + contact.pressure) / 2
         lost = mean * lengths(step.slip)
         return SlipState(
             step.traction,
-            np.where(pressure > 0, self.slip + step.slip, 0.0),
+            np.where(contact.in_contact, self.slip + step.slip, 0.0),
             self.work + lost,
-            pressure,
-            solution.gap,
-            self.touched | (pressure > 0),
+            contact,
+            self.touched | contact.in_contact,
             self.motion + step.motion,
             step.forces,
             self.heat + float(lost.sum()) * cell_area,
@@ -125,8 +123,7 @@ class SlipState:
             self,
             traction=step.traction,
             slip=np.zeros_like(self.slip),
-            pressure=np.zeros_like(self.pressure),
-            gap=gap,
+            contact=NormalContact.apart(gap),
             motion=self.motion + step.motion,
             forces=step.forces,
         )

@@ -92,14 +92,15 @@ def refuse_force_apart(step: SlipStep) -> None:
 def _slip_problem(
     run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep
 ) -> SlipProblem:
-    before, pressure = step.before, step.solution.pressure
+    contact = step.solution.contact
     entry = entry_compliance(
-        *(pressure, before.pressure, before.gap, run.grid.cell_size, step.response.kappa),
+        *(contact, step.before.contact, run.grid.cell_size, step.response.kappa),
         plane=not run.grid.has_datum,
     )
     largest = float(np.abs(step.solution.displacement).max())
     return SlipProblem(
-        step.coefficient * pressure[region.cut],
+        contact.in_contact[region.cut],
+        step.coefficient * contact.pressure[region.cut],
         step.response.past(domain, region),
         step.response.compliance,
         entry[:, *region.cut],

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.state import Outcome
 
 
@@ -31,3 +32,8 @@ class StepSolution:
     # Energy that the bodies lose in the step of a moving contact [J]; NaN if unknown.
     heat: float = math.nan
     power: float = math.nan  # lost at the end of the step [W]; NaN if unknown
+
+    @property
+    def contact(self) -> NormalContact:
+        """Normal contact that tractions act in."""
+        return NormalContact(self.pressure, self.gap, self.in_contact)

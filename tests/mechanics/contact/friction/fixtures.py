@@ -60,6 +60,7 @@ def solved(block, pressure, constraints, *, before=None, entry=None, start=None,
     nothing = np.zeros((2, *pressure.shape))
     past = nothing if before is None else -COMPLIANCE * block.convolution.apply(before)
     problem = SlipProblem(
+        pressure > 0,
         FRICTION * pressure,
         past,
         COMPLIANCE,

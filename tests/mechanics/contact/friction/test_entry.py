@@ -15,9 +15,16 @@ from mechanics.contact.friction.fixtures import (
     under,
 )
 from viscontact.mechanics.contact.friction.entry import entry_compliance
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 
 KAPPAS = [0.0, 0.4, 1.0]
 PART = 0.15  # tangential force over normal force, below the coefficient of friction
+
+
+def entered(pressure, before, gap, cell_size, kappa):
+    """Compliance of cells that enter, of the pressures after and before, and the gap before."""
+    contact = NormalContact(pressure, np.zeros(gap.shape), pressure > 0)
+    return entry_compliance(contact, NormalContact(before, gap, before > 0), cell_size, kappa)
 
 
 def sphere_on(grid, part):
@@ -47,7 +54,7 @@ def test_a_first_oblique_load_sticks_everywhere(kappa):
     grid, pressure = hertz(32)
     gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / (2 * RADIUS)
     before = np.zeros(grid.shape)
-    entry = entry_compliance(pressure, before, gap, grid.cell_size, kappa)
+    entry = entered(pressure, before, gap, grid.cell_size, kappa)
     block = shear_block(grid, kappa)
     found = solved(block, pressure, under((PART * FORCE, 0.0, 0.0)), entry=entry)
     assert found.converged
@@ -61,7 +68,7 @@ def test_an_oblique_load_that_grows_sticks_everywhere(kappa):
     grid, pressure = hertz(64)
     earlier, gap = sphere_on(grid, 0.9)
     block = shear_block(grid, kappa)
-    entry = entry_compliance(pressure, earlier, gap, grid.cell_size, kappa)
+    entry = entered(pressure, earlier, gap, grid.cell_size, kappa)
     before = PART * np.stack([earlier, np.zeros(grid.shape)])
     constraints = under((PART * float(pressure.sum()) * grid.cell_area, 0.0, 0.0))
     found = solved(block, pressure, constraints, before=before, entry=entry)
@@ -80,15 +87,15 @@ def test_the_compliance_of_entry_goes_from_the_edge_to_a_first_contact():
     before = np.zeros(gap.shape)
     before[0, :8] = 1.0
     pressure = np.ones(gap.shape)
-    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    xx, _, yy = entered(pressure, before, gap, (1.0, 1.0), kappa) / gap
     # The gap opens along y.
     assert yy[0, -1] == close_to(1 + kappa / 4, rel=0.05)
     assert xx[0, -1] == close_to(1 + 3 * kappa / 4, rel=0.05)
     before[0, :39_990] = 1.0
-    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    xx, _, yy = entered(pressure, before, gap, (1.0, 1.0), kappa) / gap
     assert (yy[0, -1], xx[0, -1]) == close_to((1.0, 1 + kappa), rel=1e-3)
     before[:] = 0.0
-    xx, _, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), kappa) / gap
+    xx, _, yy = entered(pressure, before, gap, (1.0, 1.0), kappa) / gap
     assert (yy[0, 9], xx[0, 9]) == close_to((1 + kappa / 4, 1 + 3 * kappa / 4), rel=1e-12)
 
 
@@ -96,7 +103,7 @@ def test_no_entry_in_cells_that_were_in_contact():
     pressure = np.array([[0.0, 1.0], [2.0, 4.0]])
     before = np.array([[0.0, 1.0], [1.0, 0.0]])
     gap = np.array([[1.0, 0.0], [0.0, 2.0]])
-    xx, xy, yy = entry_compliance(pressure, before, gap, (1.0, 1.0), 0.0)
+    xx, xy, yy = entered(pressure, before, gap, (1.0, 1.0), 0.0)
     np.testing.assert_allclose(xx, [[0.0, 0.0], [0.0, 0.5]])
     np.testing.assert_allclose(yy, xx)
     assert not xy.any()
@@ -105,5 +112,5 @@ def test_no_entry_in_cells_that_were_in_contact():
 def test_the_edge_of_the_body_has_no_slope():
     gap = np.array([[0.0, 1.0, np.inf], [0.0, 1.0, np.inf], [0.0, 1.0, np.inf]])
     pressure = np.where(np.isfinite(gap), 1.0, 0.0)
-    found = entry_compliance(pressure, np.zeros(gap.shape), gap, (1.0, 1.0), 1.0)
+    found = entered(pressure, np.zeros(gap.shape), gap, (1.0, 1.0), 1.0)
     assert np.isfinite(found).all()

@@ -15,7 +15,7 @@ from viscontact.mechanics.contact.friction.problem import SlipProblem
 class Directions:
     """Directions in which the traction of each cell may change at first order."""
 
-    # Both in cells that stick, the tangent of the circle in those that slip, none without pressure.
+    # Both in cells that stick, the tangent of the circle in those that slip, none without contact.
     slips: Bools
     normal: Floats  # unit vectors along the traction of cells that slip, 0 elsewhere; (2, nx, ny)
     sticks: Bools
@@ -38,7 +38,7 @@ class Directions:
 
 @dataclass(frozen=True, eq=False)
 class ReachedCircles:
-    """Cells under pressure, and those whose traction has reached its circle."""
+    """Cells in contact, and those whose traction has reached its circle."""
 
     held: Bools
     reached: Bools
@@ -53,6 +53,6 @@ class ReachedCircles:
 
 def reached_circles(problem: SlipProblem, traction: Floats) -> ReachedCircles:
     """Circles that a traction has reached."""
-    reached = on_circle(traction, problem.bound)
+    reached = on_circle(traction, problem.bound, problem.in_contact)
     normal = np.divide(traction, problem.bound, out=np.zeros(traction.shape), where=reached)
-    return ReachedCircles(problem.bound > 0, reached, normal)
+    return ReachedCircles(problem.in_contact, reached, normal)

@@ -30,9 +30,9 @@ def lengths(pairs: Floats) -> Floats:
     return np.asarray(np.sqrt(x * x + y * y))
 
 
-def on_circle(traction: Floats, bound: Floats) -> Bools:
-    """Cells under pressure whose traction has reached what friction carries."""
-    return np.asarray((bound > 0) & (lengths(traction) >= bound * (1 - ON_CIRCLE)))
+def on_circle(traction: Floats, bound: Floats, in_contact: Bools) -> Bools:
+    """Cells in contact whose traction has reached what friction carries."""
+    return np.asarray(in_contact & (lengths(traction) >= bound * (1 - ON_CIRCLE)))
 
 
 def balanced(

@@ -24,15 +24,15 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 
 #: Contact radii up to which a cell is near the edge.
 NEAR = 1.001
 
 
 def entry_compliance(
-    pressure: Floats,
-    before: Floats,
-    gap: Floats,
+    contact: NormalContact,
+    before: NormalContact,
     cell_size: tuple[float, float],
     kappa: float,
     *,
@@ -40,17 +40,16 @@ def entry_compliance(
 ) -> Floats:
     """Entries xx, xy and yy of C gap/p in cells that enter [m/Pa], shape (3, nx, ny).
 
-    `before` and `gap` are pressure [Pa] and gap [m] at the begin of the step; `plane` tells a line
-    contact.
+    The contacts are those at the end of the step and at its begin; `plane` tells a line contact.
     """
-    enters = (pressure > 0) & (before <= 0) & np.isfinite(gap)
+    gap, enters = before.gap, contact.entered_since(before)
     found = np.zeros((3, *gap.shape))
     if not enters.any():
         return found
-    compliance = np.maximum(gap[enters] / pressure[enters], 0.0)
+    compliance = np.maximum(gap[enters] / contact.pressure[enters], 0.0)
     along, across = np.ones(compliance.size), np.full(compliance.size, 1 + kappa)
     if not plane:
-        along, across = _ratios(_radii(enters, before > 0, gap), kappa)
+        along, across = _ratios(_radii(enters, before.cells, gap), kappa)
     x, y = _edge_normal(gap, enters, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
     i, j = np.nonzero(enters)
@@ -58,14 +57,13 @@ def entry_compliance(
     return found
 
 
-def _radii(enters: Bools, held: Bools, gap: Floats) -> Floats:
+def _radii(enters: Bools, held: int, gap: Floats) -> Floats:
     """Distance of cells that enter, in the radii of a round contact before; inf without one."""
     # Cells enter in the order of their gaps: the area inside is known when each does.
     order = np.argsort(gap[enters], kind="stable")
     area = np.empty(order.size)
-    count = np.count_nonzero(held)
-    area[order] = count + np.arange(order.size) + 0.5
-    return np.sqrt(area / count) if count else np.full(order.size, np.inf)
+    area[order] = held + np.arange(order.size) + 0.5
+    return np.sqrt(area / held) if held else np.full(order.size, np.inf)
 
 
 def _ratios(radii: Floats, kappa: float) -> tuple[Floats, Floats]:

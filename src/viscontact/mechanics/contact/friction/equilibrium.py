@@ -46,7 +46,7 @@ def solve_slip(
     forces exceed what friction carries.
     """
     shift = block.shift
-    slips = on_circle(start, problem.bound)
+    slips = on_circle(start, problem.bound, problem.in_contact)
     traction = balanced(start, problem.bound, shift, problem.constraints, slips)
     found = _judged(problem, block, traction)
     iterations, convolutions, failures = 0, 1, 0

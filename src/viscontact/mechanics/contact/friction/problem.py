@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from viscontact.backend.arrays import Flags, Floats
+from viscontact.backend.arrays import Bools, Flags, Floats
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.mechanics.halfspace.shear_filter import PairFilter
 
@@ -18,7 +18,8 @@ class SlipProblem:
     prescribed resultants, whose multipliers are the motion.
     """
 
-    bound: Floats  # μ p at the end of the step [Pa], (nx, ny)
+    in_contact: Bools  # at the end of the step, (nx, ny)
+    bound: Floats  # μ p there, 0 elsewhere [Pa], (nx, ny)
     past: Floats  # displacement in the step by earlier tractions [m], (2, nx, ny)
     compliance: float  # contact compliance J of the new traction [1/Pa]
     entry: Floats  # compliance D of cells that enter, xx, xy and yy [m/Pa], (3, nx, ny)

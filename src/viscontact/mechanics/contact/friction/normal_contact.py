@@ -1,0 +1,42 @@
+"""Normal contact that tractions act in: its pressure, gap, and cells in contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscontact.backend.arrays import Bools, Floats
+
+
+@dataclass(frozen=True, eq=False)
+class NormalContact:
+    """Pressure and gap at one instant, with the cells that the normal solution holds in contact."""
+
+    pressure: Floats  # [Pa], (nx, ny)
+    gap: Floats  # +inf outside the body [m], (nx, ny)
+    in_contact: Bools  # the solution's own, never inferred from the pressure
+
+    @classmethod
+    def apart(cls, gap: Floats) -> NormalContact:
+        """Bodies that do not touch, at a gap [m]."""
+        return cls(np.zeros(gap.shape), gap, np.zeros(gap.shape, bool))
+
+    @property
+    def cells(self) -> int:
+        """Number of cells in contact."""
+        return int(np.count_nonzero(self.in_contact))
+
+    def entered_since(self, before: NormalContact) -> Bools:
+        """Cells in contact that were open before."""
+        return self.in_contact & ~before.in_contact & np.isfinite(before.gap)
+
+    def on(self, embedded: Callable[[Any, Any], Any]) -> NormalContact:
+        """The same contact on a larger grid, by a map of a field and its value beyond."""
+        return NormalContact(
+            embedded(self.pressure, 0.0),
+            embedded(self.gap, np.inf),
+            embedded(self.in_contact, False),
+        )
