@@ -137,7 +137,7 @@ def periodic_shear_convolution(
     """Displacement per unit compliance from the mean plane, of a load periodic along both axes."""
     # A wave of traction along its wave vector moves the surface by 2/|k|, across it by 1 + κ times
     # as much: Johnson (1985), section 13.2, for a half-plane and for antiplane strain.
-    x, y, length = _wave_numbers(shape, cell_size)
+    x, y, length = wave_numbers(shape, cell_size)
     length[0, 0] = np.inf  # the mean plane is at rest
     direct = 2 / length
     across = direct * (y / length) ** 2
@@ -152,7 +152,7 @@ def shear_preconditioner(
 ) -> ShearFilter:
     """Approximate inverse of the displacement of a block, taken as a period [1/m]."""
     # The inverse symbol |k|/2 (l l^T + t t^T/(1 + κ)) of waves along l and across t.
-    x, y, length = _wave_numbers(shape, cell_size)
+    x, y, length = wave_numbers(shape, cell_size)
     half = length / 2
     # The mean of a block is a wave of about the longest length in it, not of none.
     least = min([*half[0, 1:2], *half[1:2, 0]])
@@ -196,10 +196,19 @@ def _parts(
 
 def _spectrum(table: Floats, lengths: tuple[int, int], sign: int) -> Floats:
     """Spectrum of a kernel that is even (1) or odd (-1) along both axes."""
-    kernel = table
+    return np.ascontiguousarray(np.fft.rfft2(_around(table, lengths, (sign, sign))).real)
+
+
+def odd_spectrum(table: Floats, lengths: tuple[int, int], signs: tuple[int, int]) -> Floats:
+    """Imaginary part of the spectrum of a kernel, odd (-1) along one axis and even (1) along one."""
+    return np.ascontiguousarray(np.fft.rfft2(_around(table, lengths, signs)).imag)
+
+
+def _around(table: Floats, lengths: tuple[int, int], signs: tuple[int, int]) -> Floats:
+    """Kernel on both sides of a cell, of its coefficients on one."""
     for axis, length in enumerate(lengths):
-        kernel = _wrapped(kernel, axis, length, sign)
-    return np.ascontiguousarray(np.fft.rfft2(kernel).real)
+        table = _wrapped(table, axis, length, signs[axis])
+    return table
 
 
 def _wrapped(table: Floats, axis: int, length: int, sign: int) -> Floats:
@@ -217,7 +226,7 @@ def _wrapped(table: Floats, axis: int, length: int, sign: int) -> Floats:
     return kernel
 
 
-def _wave_numbers(
+def wave_numbers(
     shape: tuple[int, int], cell_size: tuple[float, float]
 ) -> tuple[Floats, Floats, Floats]:
     """Wave numbers along x and y, and their lengths, in the order of the transform [1/m]."""

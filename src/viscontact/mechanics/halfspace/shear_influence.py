@@ -85,12 +85,12 @@ def shear_tables(grid: Grid) -> ShearTables:
 
 def along_coefficient(x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     """X: displacement along x [m] at x, y [m] per unit κ, J and traction along x."""
-    return _over_cell(x, y, cell_size, _along_corner, lambda x, y, r: x * x / (r * r * r))
+    return over_cell(x, y, cell_size, _along_corner, lambda x, y, r: x * x / (r * r * r))
 
 
 def cross_coefficient(x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
     """Z: displacement along y [m] at x, y [m] per unit κ, J and traction along x, and reversed."""
-    return _over_cell(
+    return over_cell(
         x, y, cell_size, lambda x, y: -np.hypot(x, y), lambda x, y, r: x * y / (r * r * r)
     )
 
@@ -101,7 +101,7 @@ def _along_corner(x: Floats, y: Floats) -> Floats:
     return np.asarray(y * np.arcsinh(ratio))
 
 
-def _over_cell(
+def over_cell(
     x: Floats,
     y: Floats,
     cell_size: tuple[float, float],

@@ -32,6 +32,7 @@ from viscontact.bodies.surfaces.topographies import is_topography
 from viscontact.mechanics.problem.expansion import ThickenedLoad, Thickening, thickening_of
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.problem.series_body import span_of
+from viscontact.mechanics.problem.shear_terms import is_uncoupled
 from viscontact.mechanics.problem.surface import (
     SurfaceTerms,
     clock_of,
@@ -210,6 +211,13 @@ class Problem:
             clock if shift is None else ReducedTime(self.temperature, shift)
             for clock, shift in zip(self.clocks, shifts, strict=True)
         )
+
+    @property
+    def is_coupled(self) -> bool:
+        """True if pressure and tractions along the surface act on each other."""
+        if self.friction is None or not self.friction.coupling:
+            return False
+        return not is_uncoupled(self.bodies)
 
     @property
     def parts(self) -> frozenset[str]:

@@ -50,12 +50,6 @@ def check_friction(problem: Problem) -> None:
             "the motion or friction out"
         )
     shear_terms(problem.bodies, problem.clocks)
-    if problem.friction.coupling and not is_uncoupled(problem.bodies):
-        raise ValueError(
-            "friction: the materials of the bodies are not alike and not all of Poisson's ratio "
-            "0.5, so that pressure moves the surface along itself, which is not supported; give "
-            "Friction(coefficient, coupling=False), in a case file 'coupling: false', to neglect it"
-        )
     check_grip(problem)
 
 
@@ -82,7 +76,7 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
 
 def coupling_warnings(problem: Problem) -> dict[str, str]:
     """Warn of bodies whose pressure and tractions are coupled, where that is neglected."""
-    if problem.friction is None or is_uncoupled(problem.bodies):
+    if problem.friction is None or problem.friction.coupling or is_uncoupled(problem.bodies):
         return {}
     ratios = [constant_poisson_ratio(material) for material in problem.materials]
     if all(ratio is not None and ratio >= NEARLY_INCOMPRESSIBLE for ratio in ratios):

@@ -28,7 +28,8 @@ from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.adaptive_steps import MIN_STEP_FRACTION, AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
-from viscontact.simulation.transient.frictional_contact import SlipTrial, frictional_contact
+from viscontact.simulation.transient.coupled_contact import frictional_contact
+from viscontact.simulation.transient.frictional_contact import SlipTrial
 from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
@@ -95,9 +96,9 @@ class EventSearch:
         planned = replace(problem, load=course.history(), times=times, kept=NO_FIELDS)
         self._run: RunSetup = prepare_run(planned, threads)
         self._domain: ContactDomain = domain_of(self._run)
-        self._stepper = Stepper(self._run, self._domain)
-        self._observer = Observer(self._run, warns=False)
         self._friction = frictional_contact(self._run)
+        self._stepper = Stepper(self._run, self._domain, self._friction)
+        self._observer = Observer(self._run, warns=False)
         self.states: list[ContactState] = []  # at the ends of the steps, without fields
         self.reach = (0.0, 0.0)  # of the contact from the middle of the grid, along x and y [m]
         self._accept(self._solve(TimeStep(0.0, 0.0, 0.0, smooth=False)))
@@ -211,7 +212,7 @@ class EventSearch:
         observer = copy(self._observer)  # it adds the work of each step that it sees
         state = observer.evaluate(step, trial.point, solution)
         try:
-            slip = self._friction.trial(step, solution)
+            slip = self._friction.trial(step, solution, trial.joint)
         except SlidingError:
             if not any(each.scalar == SLIDING for each in self._course.conditions):
                 raise

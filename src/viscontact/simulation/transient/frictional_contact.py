@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,11 +17,15 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
-from viscontact.mechanics.contact.friction.region import ShearDomain
+from viscontact.mechanics.contact.friction.region import Region, ShearDomain
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.friction import Grip, grip_warnings, ring_warnings
+from viscontact.simulation.transient.coupling_history import CouplingStep
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearHistory, ShearStep
@@ -47,6 +51,7 @@ class SlipTrial:
     response: ShearStep | None = None
     after: SlipState | None = None
     duration: float = 0.0  # [s]
+    coupling: CouplingStep | None = None
 
     @property
     def warnings(self) -> dict[str, str]:
@@ -54,13 +59,41 @@ class SlipTrial:
         return {} if self.grip is None else grip_warnings(self.grip)
 
 
-class Frictionless:
+class JointSlip(Protocol):
+    """Tractions that have been found together with their normal contact."""
+
+    slip: StepSlip
+    lift: Floats  # displacement into the surface by the new tractions [m], (nx, ny)
+
+
+class Uncoupled:
+    """Normal contact that does not feel tractions."""
+
+    def earlier_lift(self, step: TimeStep) -> Floats | None:
+        """Displacement into the surface by earlier tractions [m]; None for none."""
+        return None
+
+    def equilibrium(
+        self,
+        step: TimeStep,
+        problem: ContactProblem,
+        domain: ContactDomain,
+        guess: Guess | None,
+        tolerance: float,
+    ) -> tuple[ContactSolution, JointSlip | None]:
+        """Solve the normal contact of a step, and tractions with it if they are coupled."""
+        return solve_contact(problem, domain, guess, tolerance=tolerance), None
+
+
+class Frictionless(Uncoupled):
     """Contact without friction, which carries no traction."""
 
     #: Warnings of the whole run, by kind.
     warnings_at_end: Mapping[str, str] = {}
 
-    def trial(self, step: TimeStep, solution: StepSolution) -> SlipTrial:
+    def trial(
+        self, step: TimeStep, solution: StepSolution, joint: JointSlip | None = None
+    ) -> SlipTrial:
         """Return no tractions."""
         return SlipTrial()
 
@@ -77,7 +110,7 @@ class Frictionless:
         """Continue from nothing."""
 
 
-class FrictionalContact:
+class FrictionalContact(Uncoupled):
     """Solves the tractions of the steps of a run and keeps their memory."""
 
     def __init__(self, run: RunSetup, friction: Friction, load: TangentialLoad) -> None:
@@ -95,21 +128,21 @@ class FrictionalContact:
         """Warnings of the whole run, by kind."""
         return ring_warnings(self._widest)
 
-    def trial(self, step: TimeStep, solution: StepSolution) -> SlipTrial:
+    def trial(
+        self, step: TimeStep, solution: StepSolution, joint: JointSlip | None = None
+    ) -> SlipTrial:
         """Solve the tractions at the end of a step, after that of the last one accepted."""
-        before, grid = self._state, self._run.grid
-        point = self._load.at(step.time, side=step.side)
-        known = SlipStep(
-            step.time,
-            before,
-            solution,
-            self._history.respond(step),
-            shift_constraints(self._run, point, before.motion),
-            self._coefficient,
-        )
-        if solution.in_contact.any():
-            found = self._solved(step, known)
-            after = before.after(solution, found, self._coefficient, grid.cell_area)
+        before, grid, contact = self._state, self._run.grid, solution.contact
+        region = self._region_of(contact)
+        known = self._known(step, contact, region)
+        if contact.in_contact.any():
+            tolerance = self._run.problem.tolerance
+            found = (
+                self._solved(known, region, self._guess(step), tolerance)
+                if joint is None
+                else joint.slip
+            )
+            after = before.after(contact, found, self._coefficient, grid.cell_area)
         else:
             refuse_force_apart(known)
             found = StepSlip.apart(grid.shape, known.constraints)
@@ -133,10 +166,27 @@ class FrictionalContact:
         self._trend = trial.after.traction - self._state.traction, trial.duration
         self._state, self._widest = trial.after, max(self._widest, trial.grip.ring)
 
-    def _solved(self, step: TimeStep, known: SlipStep) -> StepSlip:
+    def _region_of(self, contact: NormalContact) -> Region:
+        """Region of cells that carry tractions, or have carried some."""
+        return self._domain.region_of(self._state.touched | contact.in_contact)
+
+    def _known(self, step: TimeStep, contact: NormalContact, region: Region) -> SlipStep:
+        """What is known of a step with its normal contact."""
+        response = self._history.respond(step)
+        point = self._load.at(step.time, side=step.side)
+        return SlipStep(
+            step.time,
+            self._state,
+            contact,
+            response,
+            response.past(self._domain, region),
+            shift_constraints(self._run, point, self._state.motion),
+            self._coefficient,
+        )
+
+    def _solved(self, known: SlipStep, region: Region, start: Floats, tolerance: float) -> StepSlip:
         """Tractions of a step in contact."""
-        region = self._domain.region_of(known.before.touched | known.solution.in_contact)
-        found = solved_on(self._run, self._domain, region, known, self._guess(step))
+        found = solved_on(self._run, self._domain, region, known, start, tolerance)
         return step_slip(found, known.constraints, self._domain, region, known.carried)
 
     def _guess(self, step: TimeStep) -> Floats:
@@ -178,14 +228,6 @@ class FrictionalContact:
         trend, duration = restart_data["trend"]
         self._trend = trend, duration
         self._widest = restart_data["widest"]
-
-
-def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
-    """Friction of a run; without it nothing is carried along the surface."""
-    problem = run.problem
-    if problem.friction is None or problem.tangential is None:
-        return Frictionless()
-    return FrictionalContact(run, problem.friction, problem.tangential)
 
 
 def _domain_of(run: RunSetup) -> ShearDomain:

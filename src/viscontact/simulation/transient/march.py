@@ -14,7 +14,7 @@ from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.simulation.transient.frictional_contact import frictional_contact
+from viscontact.simulation.transient.coupled_contact import frictional_contact
 from viscontact.simulation.transient.grid_enlargement import (
     FREE,
     GridEnlargement,
@@ -40,10 +40,10 @@ class March:
             run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
         self._domain = domain_of(run)
-        self._stepper = Stepper(run, self._domain)
+        self._friction = frictional_contact(run)
+        self._stepper = Stepper(run, self._domain, self._friction)
         self._steps = run.problem.steps(run.grid.cell_size)
         self._observer = Observer(run, warns=warns)
-        self._friction = frictional_contact(run)
         self.done, self.outcome = 0, Outcome.CONVERGED
         self._failure: str | None = None
         if restart_data is not None:
@@ -144,7 +144,7 @@ class March:
         solution = self._stepper.accept(step, trial)
         refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
-        slip = self._friction.trial(step, solution)
+        slip = self._friction.trial(step, solution, trial.joint)
         self._friction.accept(slip)
         state = replace(state, **slip.values)
         self._observer.warn(slip.warnings)

@@ -187,6 +187,8 @@ def _gap(indenter: Indenter, grid: Grid) -> Floats:
 
 
 def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
+    if problem.is_coupled:  # a force along the surface tilts the pressure
+        return False, False
     loads = (problem.load.is_even(0), problem.load.is_even(1))
     if problem.motion.stands:
         return mirrored_axes(grid, open_gap, loads)

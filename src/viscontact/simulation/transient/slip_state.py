@@ -14,7 +14,6 @@ from viscontact.mechanics.contact.friction.problem import SlipSolution
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
 from viscontact.mechanics.contact.friction.rigid_shift import ShiftConstraints
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
-from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Part of what friction carries, and of the displacements of a step, that counts as rounding.
 ROUNDING = 1e-9
@@ -30,6 +29,7 @@ class StepSlip:
     motion: Floats  # shifts [m] and rotation [rad] of the body in the step
     forces: Floats  # along x and y [N] and torque [N m]
     duality_gap: float = 0.0  # [-]
+    residual: float = 0.0  # of the friction law [-]
 
     @classmethod
     def apart(cls, shape: tuple[int, int], constraints: ShiftConstraints) -> StepSlip:
@@ -56,7 +56,7 @@ def step_slip(
     moved = found.motion * arms
     noise = ROUNDING * max(float(np.abs(moved).max()), found.displacement)
     moved[constraints.free & (np.abs(moved) < noise)] = 0.0
-    return StepSlip(traction, slip, state, moved / arms, forces, found.duality_gap)
+    return StepSlip(traction, slip, state, moved / arms, forces, found.duality_gap, found.residual)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +98,9 @@ class SlipState:
         )
 
     def after(
-        self, solution: StepSolution, step: StepSlip, coefficient: float, cell_area: float
+        self, contact: NormalContact, step: StepSlip, coefficient: float, cell_area: float
     ) -> SlipState:
         """State after a step in contact."""
-        contact = solution.contact
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
         mean = coefficient * (self.contact.pressure + contact.pressure) / 2

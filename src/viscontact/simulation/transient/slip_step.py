@@ -11,13 +11,13 @@ from viscontact.backend.errors import ConvergenceError, SlidingError
 from viscontact.bodies.loads.tangential import TangentialPoint
 from viscontact.mechanics.contact.friction.entry import entry_compliance
 from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import SlipProblem, SlipSolution
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain, ShearSymmetry
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearStep
 from viscontact.simulation.transient.slip_state import SlipState
-from viscontact.simulation.transient.step_solution import StepSolution
 from viscontact.units.formatting import format_quantity
 
 #: Least displacement that errors are relative to, over friction times that under pressure [-].
@@ -30,15 +30,16 @@ class SlipStep:
 
     time: float  # at its end [s]
     before: SlipState
-    solution: StepSolution  # of the normal contact at its end
+    contact: NormalContact  # at its end
     response: ShearStep
+    past: Floats  # displacement along the surface of a region in it, but by new tractions [m]
     constraints: ShiftConstraints
     coefficient: float  # of friction [-]
 
     @property
     def carried(self) -> float:
         """Force that friction carries [N]."""
-        return self.coefficient * float(self.solution.resultants[0])
+        return self.coefficient * self.contact.force
 
 
 def symmetry_of(run: RunSetup) -> ShearSymmetry | None:
@@ -68,12 +69,17 @@ def shift_constraints(
 
 
 def solved_on(
-    run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep, start: Floats
+    run: RunSetup,
+    domain: ShearDomain,
+    region: Region,
+    step: SlipStep,
+    start: Floats,
+    tolerance: float,
 ) -> SlipSolution:
     """Tractions of a step on a region, from a start on the whole grid [Pa]."""
-    problem = _slip_problem(run, domain, region, step)
+    problem = _slip_problem(run, region, step)
     block = domain.block(region, step.response.kappa)
-    found = solve_slip(problem, block, start[:, *region.cut], tolerance=run.problem.tolerance)
+    found = solve_slip(problem, block, start[:, *region.cut], tolerance=tolerance)
     if not found.converged:
         raise _failure(step, found, block.shift)
     return found
@@ -89,23 +95,20 @@ def refuse_force_apart(step: SlipStep) -> None:
         )
 
 
-def _slip_problem(
-    run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep
-) -> SlipProblem:
-    contact = step.solution.contact
+def _slip_problem(run: RunSetup, region: Region, step: SlipStep) -> SlipProblem:
+    contact = step.contact
     entry = entry_compliance(
         *(contact, step.before.contact, run.grid.cell_size, step.response.kappa),
         plane=not run.grid.has_datum,
     )
-    largest = float(np.abs(step.solution.displacement).max())
     return SlipProblem(
         contact.in_contact[region.cut],
         step.coefficient * contact.pressure[region.cut],
-        step.response.past(domain, region),
+        step.past,
         step.response.compliance,
         entry[:, *region.cut],
         step.constraints,
-        LEAST_SHIFT * step.coefficient * largest,
+        LEAST_SHIFT * step.coefficient * contact.displacement,
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.state import Outcome
@@ -36,4 +38,6 @@ class StepSolution:
     @property
     def contact(self) -> NormalContact:
         """Normal contact that tractions act in."""
-        return NormalContact(self.pressure, self.gap, self.in_contact)
+        largest = float(np.abs(self.displacement).max())
+        force = float(self.resultants[0])
+        return NormalContact(self.pressure, self.gap, self.in_contact, force, largest)

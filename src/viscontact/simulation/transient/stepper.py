@@ -23,7 +23,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.mechanics.contact.clearance import just_clear
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.state import Outcome
@@ -39,6 +39,7 @@ from viscontact.mechanics.time_integration.internal_variables import InternalVar
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
 from viscontact.simulation.transient.adhesive_contact import AdhesiveContact, AdhesiveStep
+from viscontact.simulation.transient.frictional_contact import JointSlip, Uncoupled
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
@@ -62,6 +63,7 @@ class StepProblem:
     drive: float  # force [N] or approach [m] over which references are extrapolated
     problem: ContactProblem
     guess: Guess | None
+    earlier_lift: Floats | None = None  # displacement by earlier tractions [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +78,15 @@ class TrialStep:
     outcome: Outcome
     error: StepError
     adhesive: AdhesiveStep | None = None
+    joint: JointSlip | None = None  # tractions that are coupled with the pressure
+    earlier_lift: Floats | None = None  # displacement by earlier tractions [m]
+
+    @property
+    def lift(self) -> Floats | None:
+        """Displacement into the surface by tractions [m]; None where none is coupled."""
+        if self.earlier_lift is None or self.joint is None:
+            return self.earlier_lift
+        return self.earlier_lift + self.joint.lift
 
     @property
     def change(self) -> float:
@@ -94,8 +105,10 @@ class StepTooLongError(Exception):
 class Stepper:
     """Solves a run's steps and keeps hereditary integrals, elastic references and rigid motion."""
 
-    def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
-        self._run, self._domain = run, domain
+    def __init__(
+        self, run: RunSetup, domain: ContactDomain, friction: Uncoupled | None = None
+    ) -> None:
+        self._run, self._domain, self._friction = run, domain, friction or Uncoupled()
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
         self._history = SurfaceHistory(run, domain)
         first = run.hereditary
@@ -110,9 +123,9 @@ class Stepper:
     def trial(self, step: TimeStep) -> TrialStep:
         """Solve a step without accepting it; StepTooLongError if it has to be shorter."""
         posed = self._step_problem(step)
-        adhesive = self._solve_adhesive(step, posed)
+        adhesive, joint = self._solve_adhesive(step, posed), None
         if adhesive is None:
-            solution, outcome = self._solve_step(step, posed)
+            solution, outcome, joint = self._solve_step(step, posed)
         else:
             solution, outcome = adhesive.solution, adhesive.outcome
         response = posed.response
@@ -121,7 +134,8 @@ class Stepper:
         creeping = pairs[self._creeping], response.terms[self._creeping]
         error = self._errors.of_step(step, posed.point, *creeping)  # step 4
         return TrialStep(
-            posed.point, solution, response, pairs, reference, outcome, error, adhesive
+            *(posed.point, solution, response, pairs, reference, outcome, error),
+            *(adhesive, joint, posed.earlier_lift),
         )
 
     def whole_solution(self, trial: TrialStep) -> StepSolution:
@@ -180,8 +194,9 @@ class Stepper:
         self._domain.move_axis(position)
         open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
         past, displacement = response.past()
+        lift = self._friction.earlier_lift(step)
         problem = ContactProblem(  # step 2: the history widens the gap
-            open_gap + displacement,
+            open_gap + displacement if lift is None else open_gap + displacement + lift,
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
@@ -192,7 +207,7 @@ class Stepper:
         else:
             moved = predict(self._move_known(known, step), step.time, point.level, team)
             guess = None if moved is None else self._moved_guess(moved, problem)
-        return StepProblem(point, response, drive, problem, guess)
+        return StepProblem(point, response, drive, problem, guess, lift)
 
     def accept(self, step: TimeStep, trial: TrialStep) -> StepSolution:
         """Add a solved step to the history (step 5), and return its solution on the whole grid."""
@@ -289,25 +304,29 @@ class Stepper:
             moved.append(replace(each, fields=fields))
         return moved
 
-    def _solve_step(self, step: TimeStep, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
+    def _solve_step(
+        self, step: TimeStep, posed: StepProblem
+    ) -> tuple[ContactSolution, Outcome, JointSlip | None]:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
             untouched = not response.past()[1].any()
-            return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
+            return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT, None
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
-            return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT
+            return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
         tolerance = self._run.problem.tolerance
-        solution = solve_contact(problem, self._domain, posed.guess, tolerance=tolerance)
+        solution, joint = self._friction.equilibrium(
+            step, problem, self._domain, posed.guess, tolerance
+        )
         if not solution.converged:
-            return solution, Outcome.NOT_CONVERGED
+            return solution, Outcome.NOT_CONVERGED, None
         if solution.in_contact.any():
-            return solution, Outcome.CONVERGED
+            return solution, Outcome.CONVERGED, joint
         # A body that can tilt has turned away: from its last tilts no farther than it must.
         plane = self._domain.whole.plane
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
-        return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT
+        return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
 
     def _solve_adhesive(self, step: TimeStep, posed: StepProblem) -> AdhesiveStep | None:
         """Solve the equilibrium of bodies that adhere (step 3); None without adhesion."""
@@ -391,7 +410,7 @@ def _on_full_grid(
     loss: tuple[float, float] = (math.nan, math.nan),
 ) -> StepSolution:
     """The solution of a step, on the whole grid, with heat [J] and power [W] lost."""
-    solution = trial.solution
+    solution, lift = trial.solution, trial.lift
     found = solution.found
     fields = {
         "pressure": domain.expand_by_symmetry(found.pressure),
@@ -399,10 +418,14 @@ def _on_full_grid(
         "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
     }
     reference, in_contact = trial.reference.fields, domain.expand_by_symmetry(solution.in_contact)
+    if lift is not None:  # coupled contacts are not mirrored
+        fields["displacement"] = fields["displacement"] + lift
     for field in (*fields.values(), reference, in_contact):
         field.flags.writeable = False  # later steps start from them
     cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
+    if lift is not None and trial.response.compliance > 0:
+        energy += float(np.einsum("ij,ij->", found.pressure, lift)) / 2 / trial.response.compliance
     return StepSolution(
         **fields,
         in_contact=in_contact,

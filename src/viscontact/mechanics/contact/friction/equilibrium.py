@@ -115,12 +115,13 @@ def _solution(
     carried = float(problem.bound.sum()) * block.shift.cell_area
     resultants = block.shift.resultants(traction)
     meets = carried == 0 or problem.constraints.imbalance(resultants, carried) <= IMBALANCE
-    slips = found.directions.slips
+    # All cells on their circles: in a held load slip is rounding, in this direction or that.
+    slips = on_circle(traction, problem.bound, problem.in_contact)
     return SlipSolution(
         traction,
         found.motion,
         found.slip * slips,
-        (2 * slips + found.directions.sticks).astype(np.int8),
+        problem.in_contact.astype(np.int8) + slips,
         found.error,
         found.duality_gap,
         found.displacement,

@@ -18,6 +18,8 @@ class NormalContact:
     pressure: Floats  # [Pa], (nx, ny)
     gap: Floats  # +inf outside the body [m], (nx, ny)
     in_contact: Bools  # the solution's own, never inferred from the pressure
+    force: float = 0.0  # [N]
+    displacement: float = 0.0  # largest one under the pressure [m]
 
     @classmethod
     def apart(cls, gap: Floats) -> NormalContact:
@@ -39,4 +41,6 @@ class NormalContact:
             embedded(self.pressure, 0.0),
             embedded(self.gap, np.inf),
             embedded(self.in_contact, False),
+            self.force,
+            self.displacement,
         )

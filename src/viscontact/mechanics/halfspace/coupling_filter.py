@@ -1,0 +1,111 @@
+"""Linear maps between traction along the surface and displacement into it, and reversed.
+
+Traction to displacement into the half-space is B, pressure to displacement along the surface its
+transpose B^T, as work is reciprocal. Kernels are odd along one axis: their spectra are imaginary.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.transforms import (
+    Transforms,
+    fast_length,
+    fastest_transforms,
+    transforms_by,
+)
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.halfspace.coupling_influence import CouplingTables, coupling_tables
+from viscontact.mechanics.halfspace.shear_filter import keep, odd_spectrum, wave_numbers
+
+
+class CouplingFilter:
+    """Maps of a unit coupling c J = 1 on a block of cells [m], by Fourier transforms."""
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        lengths: tuple[int, int],
+        symbol: tuple[Floats, Floats],
+        transforms: Transforms | None = None,
+        within: Callable[[tuple[int, int]], CouplingFilter] | None = None,
+    ) -> None:
+        #: Makes the same maps on a smaller block.
+        self.within = within or (lambda shape: self)
+        #: Imaginary parts of the spectra of X and Y.
+        self.shape, self._lengths, self._symbol = shape, lengths, symbol
+        self._transforms = transforms or transforms_by(fastest_transforms())
+
+    def normal(self, traction: Floats) -> Floats:
+        """Displacement into the surface under tractions along it [Pa m]."""
+        spectra = self._spectra(traction)
+        found = spectra[:1]
+        found[0] = 1j * (self._symbol[0] * spectra[0] + self._symbol[1] * spectra[1])
+        return np.asarray(self._fields(found)[0])
+
+    def along(self, pressure: Floats) -> Floats:
+        """Displacement along the surface under pressure [Pa m], (2, nx, ny)."""
+        (spectrum,) = self._spectra(pressure[None])
+        return self._fields(np.stack([-1j * own * spectrum for own in self._symbol]))
+
+    def _spectra(self, fields: Floats) -> Numbers:
+        """Spectra of padded fields."""
+        (nx, ny), (along, across) = self.shape, self._lengths
+        padded = np.zeros((len(fields), nx, across))
+        padded[..., :ny] = fields
+        spectra = np.zeros((len(fields), along, across // 2 + 1), np.complex128)
+        lines = spectra[:, :nx]
+        keep(lines, self._transforms.real_forward(padded, lines, 2))
+        return self._transforms.complex_forward(spectra, 1)
+
+    def _fields(self, spectra: Numbers) -> Floats:
+        """Fields of spectra, without what was padded."""
+        (nx, ny), across = self.shape, self._lengths[1]
+        lines = self._transforms.complex_inverse(spectra, 1)[:, :nx]
+        spare = np.empty((len(spectra), nx, across))
+        lines = np.ascontiguousarray(lines)
+        return np.asarray(self._transforms.real_inverse(lines, spare, 2)[..., :ny])
+
+
+def coupling_filter(grid: Grid, transforms: Transforms | None = None) -> CouplingFilter:
+    """Maps on all cells of a grid."""
+    if all(grid.periodic):
+        return _periodic_filter(grid, transforms)
+    return block_filter(coupling_tables(grid), (grid.periodic[0], grid.periodic[1]), transforms)
+
+
+def block_filter(
+    tables: CouplingTables, periodic: tuple[bool, bool], transforms: Transforms | None = None
+) -> CouplingFilter:
+    """Maps on the block of cells of the tables."""
+    nx, ny = tables.along_x.shape
+    lengths = (
+        nx if periodic[0] else fast_length(2 * nx - 1),
+        ny if periodic[1] else fast_length(2 * ny - 1),
+    )
+    symbol = (
+        odd_spectrum(tables.along_x, lengths, (-1, 1)),
+        odd_spectrum(tables.along_y, lengths, (1, -1)),
+    )
+
+    def within(block: tuple[int, int]) -> CouplingFilter:
+        return block_filter(tables.within(block), periodic, transforms)
+
+    return CouplingFilter((nx, ny), lengths, symbol, transforms, within)
+
+
+def _periodic_filter(grid: Grid, transforms: Transforms | None) -> CouplingFilter:
+    """Maps of waves, periodic along both axes: -2 k/|k|² i."""
+    shape = grid.shape
+    x, y, length = wave_numbers(shape, grid.cell_size)
+    length[0, 0] = np.inf
+    symbol_x, symbol_y = -2 * x / length**2, -2 * y / length**2
+    # The shortest waves have no sign.
+    if shape[0] % 2 == 0:
+        symbol_x[shape[0] // 2] = 0.0
+    if shape[1] % 2 == 0:
+        symbol_y[:, shape[1] // 2] = 0.0
+    return CouplingFilter(shape, shape, (symbol_x, symbol_y), transforms)

@@ -1,0 +1,218 @@
+"""Coupled friction: pressure and tractions of a step that solve both of their problems at once.
+
+Where the bodies differ, tractions displace the surface into itself and pressure along itself. Each
+step alternates between the normal contact under the displacement by the last tractions and the
+tractions under the last pressure:
+
+1. Normal contact in the gap that the tractions leave, from the last pressure.
+2. Tractions at this pressure, from the last ones.
+3. The displacement by these tractions, and the residual of the normal contact in it. Where it meets
+   the tolerance both problems are solved at the same pressure and tractions.
+4. The next displacement by Anderson mixing. Both solves go as far as the coupling is known: up to a
+   part of the last residual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.transforms import transforms_by
+from viscontact.bodies.friction import Friction
+from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.mechanics.contact.contact_residual import contact_residual
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.mechanics.contact.friction.mixing import AndersonMixing
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
+from viscontact.mechanics.contact.friction.region import Region
+from viscontact.mechanics.contact.problem import ContactProblem, Guess
+from viscontact.mechanics.halfspace.coupling_filter import CouplingFilter, coupling_filter
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation.transient.coupling_history import CouplingHistory, CouplingStep
+from viscontact.simulation.transient.frictional_contact import (
+    FrictionalContact,
+    Frictionless,
+    JointSlip,
+    SlipTrial,
+)
+from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.slip_state import StepSlip
+from viscontact.simulation.transient.step_solution import StepSolution
+
+#: Alternations of one step.
+MOST_ALTERNATIONS = 40
+
+#: Tolerance of the first solves, and part of the last residual that the next ones leave.
+FIRST_TOLERANCE, FORCING = 1e-3, 0.1
+
+#: Part of the tolerance that the last solves leave.
+LAST = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class JointSolution:
+    """Normal contact and tractions at the same pressure."""
+
+    contact: ContactSolution
+    slip: StepSlip
+    lift: Floats  # displacement into the surface by the new tractions [m], (nx, ny)
+
+
+class CoupledContact(FrictionalContact):
+    """Frictional contact whose normal contact feels the tractions."""
+
+    def __init__(self, run: RunSetup, friction: Friction, load: TangentialLoad) -> None:
+        super().__init__(run, friction, load)
+        self._memory = CouplingHistory(run)
+        self._operator = _operator_of(run)
+        #: Operators of regions, which are kept.
+        self._block: tuple[Region, CouplingFilter] | None = None
+
+    def earlier_lift(self, step: TimeStep) -> Floats:
+        """Displacement into the surface at the end of a step by earlier tractions [m]."""
+        past = self._respond(step).past
+        return self._operator.normal(past) if past.any() else np.zeros(past.shape[1:])
+
+    def equilibrium(
+        self,
+        step: TimeStep,
+        problem: ContactProblem,
+        domain: ContactDomain,
+        guess: Guess | None,
+        tolerance: float,
+    ) -> tuple[ContactSolution, JointSolution | None]:
+        """Solve both problems of a step; the open gap holds the lift by earlier tractions."""
+        response = self._respond(step)
+        mixing, wanted = AndersonMixing(), max(tolerance, FIRST_TOLERANCE)
+        traction, slip = self._guess(step), None
+        lift = self._lift(response, traction)
+        contact: NormalContact | None = None
+        for _ in range(MOST_ALTERNATIONS):
+            lifted = replace(problem, open_gap=problem.open_gap + lift)
+            found = solve_contact(lifted, domain, guess, tolerance=wanted)
+            if not found.converged or not found.in_contact.any():
+                return found, None
+            guess = found.found
+            last, contact = contact, _contact_of(found, problem, domain)
+            start = traction if last is None or slip is None else _rescaled(slip, last, contact)
+            slip = self._slip(step, response, contact, start, wanted)
+            traction = slip.traction
+            reached = self._lift(response, traction)
+            held = replace(problem, open_gap=problem.open_gap + reached)
+            checked = contact_residual(held, domain.whole, guess)
+            error = max(checked.error, slip.residual)
+            if error <= tolerance:
+                both = (checked.motion, checked.gap, checked.in_contact, error)
+                names = ("motion", "gap", "in_contact", "residual")
+                solved = replace(found, **dict(zip(names, both, strict=True)))
+                return solved, JointSolution(solved, slip, reached)
+            wanted = max(LAST * tolerance, min(wanted, FORCING * checked.error))
+            lift = mixing.next(lift, reached)
+        return replace(found, residual=error, converged=False), None
+
+    def trial(
+        self, step: TimeStep, solution: StepSolution, joint: JointSlip | None = None
+    ) -> SlipTrial:
+        """Tractions of a step that have been found with its normal contact."""
+        found = super().trial(step, solution, joint)
+        return replace(found, coupling=self._respond(step))
+
+    def accept(self, trial: SlipTrial) -> None:
+        """Close a step with its pressure and tractions."""
+        super().accept(trial)
+        assert trial.coupling is not None  # it is a trial of this contact
+        self._memory.accept(trial.coupling, self._state.contact.pressure)
+
+    def _respond(self, step: TimeStep) -> CouplingStep:
+        return self._memory.respond(step, self._history.respond(step))
+
+    def _lift(self, response: CouplingStep, traction: Floats) -> Floats:
+        """Displacement into the surface by new tractions [m]."""
+        if not traction.any():
+            return np.zeros(traction.shape[1:])
+        return self._operator.normal(response.of_traction(traction))
+
+    def _slip(
+        self,
+        step: TimeStep,
+        response: CouplingStep,
+        contact: NormalContact,
+        start: Floats,
+        tolerance: float,
+    ) -> StepSlip:
+        """Tractions at a pressure, which moves the surface along itself."""
+        region = self._region_of(contact)
+        known = self._known(step, contact, region)
+        later = response.of_pressure(contact.pressure)
+        moved = self._on(region).along((later - response.before)[region.cut])
+        known = replace(known, past=known.past + moved)
+        return self._solved(known, region, start, tolerance)
+
+    def _on(self, region: Region) -> CouplingFilter:
+        """Operator on a region."""
+        if self._block is None or self._block[0] != region:
+            self._block = region, self._operator.within(region.shape)
+        return self._block[1]
+
+    def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
+        """Continue the same run on a larger grid."""
+        super().map_fields(run, enlargement)
+        self._operator, self._block = _operator_of(run), None
+        self._memory.map_fields(_growing(enlargement))
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a step as plain data."""
+        return super().restart_data() | {"memory": self._memory.restart_data()}
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue the same run from restart data."""
+        super().restore(restart_data)
+        self._memory.restore(restart_data["memory"])
+
+
+def _operator_of(run: RunSetup) -> CouplingFilter:
+    return coupling_filter(run.grid, transforms_by(run.transforms, run.threads))
+
+
+def _growing(enlargement: GridEnlargement) -> Callable[[Floats], Floats]:
+    small, large = enlargement.small.grid, enlargement.large.grid
+
+    def grown(fields: Floats) -> Floats:
+        found = np.zeros((*fields.shape[:-2], *large.shape))
+        for index in np.ndindex(fields.shape[:-2]):
+            found[index] = small.embed(fields[index], large)
+        return found
+
+    return grown
+
+
+def _contact_of(
+    found: ContactSolution, problem: ContactProblem, domain: ContactDomain
+) -> NormalContact:
+    """Normal contact of a solution on all cells; a copy, as the next solve works in its memory."""
+    pressure = found.found.pressure.copy()
+    largest = problem.compliance * float(np.abs(found.found.unit_displacement).max())
+    force = float(pressure.sum()) * domain.grid.cell_area
+    return NormalContact(pressure, found.gap, found.in_contact, force, largest)
+
+
+def _rescaled(slip: StepSlip, last: NormalContact, contact: NormalContact) -> Floats:
+    """Tractions of the last pressure on the circles of the next one, in cells that slip."""
+    slips = (slip.state == 2) & last.in_contact
+    ratio = np.divide(contact.pressure, last.pressure, out=np.ones(slips.shape), where=slips)
+    return np.asarray(slip.traction * ratio)
+
+
+def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
+    """Friction of a run; without it nothing is carried along the surface."""
+    problem = run.problem
+    if problem.friction is None or problem.tangential is None:
+        return Frictionless()
+    kind = CoupledContact if problem.is_coupled else FrictionalContact
+    return kind(run, problem.friction, problem.tangential)

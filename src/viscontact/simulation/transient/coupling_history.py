@@ -1,0 +1,101 @@
+"""Coupling of pressure and tractions over the steps of a run, with the memory of earlier ones.
+
+With the weights c_m of `ShearTerm.coupling` and the operator B of tractions (`coupling_filter`),
+tractions displace the surface into itself by B Q and pressures along itself by B^T P, where
+
+    Q = Σ c_m ∫ J_m(t - t') dq(t'),   P = Σ c_m ∫ J_m(t - t') dp(t').
+
+Creep is in these sums, so that each is one convolution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
+from viscontact.mechanics.time_integration.fixed_steps import TimeStep
+from viscontact.mechanics.time_integration.hereditary_integral import (
+    HereditaryIntegral,
+    HereditaryResponse,
+    response_to,
+)
+from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.mechanics.time_integration.step_shape import FieldMap
+from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.shear_history import ShearStep
+
+
+@dataclass(frozen=True, eq=False)
+class CouplingStep:
+    """Sums P and Q of a step as functions of its new pressure and tractions."""
+
+    terms: tuple[ShearTerm, ...]
+    responses: tuple[HereditaryResponse, ...]  # to pressure
+    shear: ShearStep  # response to tractions
+    before: Floats  # P at the begin of the step [-], (nx, ny)
+
+    def of_pressure(self, pressure: Floats) -> Floats:
+        """P at the end of the step [-]."""
+        return _sum(self.terms, [response.of(pressure) for response in self.responses])
+
+    def of_traction(self, traction: Floats) -> Floats:
+        """Part of Q by the new tractions [-], (2, nx, ny)."""
+        pairs = zip(self.terms, self.shear.responses, strict=True)
+        weight = sum(term.coupling * response.compliance for term, response in pairs)
+        return np.asarray(weight * traction)
+
+    @property
+    def past(self) -> Floats:
+        """Part of Q by earlier tractions [-], (2, nx, ny)."""
+        return _sum(self.terms, [response.history for response in self.shear.responses])
+
+
+class CouplingHistory:
+    """Hereditary integrals of the pressure over the whole grid, one for each term under shear."""
+
+    def __init__(self, run: RunSetup) -> None:
+        self._terms = shear_terms(run.problem.bodies, run.problem.clocks)
+        plans = run.shear_plans
+        laws = tuple(plan.clocked_compliance for plan in plans) if len(plans) > 1 else ()
+        shape = run.grid.shape
+        self._integrals: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
+        self._before = np.zeros(shape)
+
+    def respond(self, step: TimeStep, shear: ShearStep) -> CouplingStep:
+        """Response to a step, with that to its tractions."""
+        responses = tuple(response_to(step, integral) for integral in self._integrals)
+        return CouplingStep(self._terms, responses, shear, self._before)
+
+    def accept(self, step: CouplingStep, pressure: Floats) -> None:
+        """Close a step with its pressure."""
+        pressure.flags.writeable = False  # the integrals keep it without a copy
+        self._before = step.of_pressure(pressure)
+        for integral in self._integrals:
+            integral.accept(pressure)
+
+    def map_fields(self, grown: FieldMap) -> None:
+        """Continue on a larger grid."""
+        self._before = grown(self._before)
+        for integral in self._integrals:
+            integral.map_fields(grown)
+
+    def restart_data(self) -> RestartData:
+        """Return the state after a step as plain data."""
+        return {
+            "integrals": [integral.restart_data() for integral in self._integrals],
+            "before": self._before,
+        }
+
+    def restore(self, restart_data: RestartData) -> None:
+        """Continue from restart data of the same run."""
+        for integral, data in zip(self._integrals, restart_data["integrals"], strict=True):
+            integral.restore(data)
+        self._before = restart_data["before"]
+
+
+def _sum(terms: tuple[ShearTerm, ...], fields: list[Floats]) -> Floats:
+    """Sum of the fields of all terms by their weights."""
+    return np.asarray(sum(term.coupling * field for term, field in zip(terms, fields, strict=True)))
