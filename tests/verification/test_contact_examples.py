@@ -115,3 +115,48 @@ def test_the_first_step_from_cattaneo_to_carter():
     assert state.friction_heat == close_to(1.261e-7, rel=1e-3)
     counts = [np.count_nonzero(state.slip_state == each) for each in (1, 2)]
     assert counts == [305, 316]
+
+
+#: Forces of `spence35.inp`: (k/45)³ as it is printed there.
+SPENCE = [0.000011, 0.000088, 0.000296, 0.000702, 0.001372, 0.002370]
+
+
+def pressed_in_stages(forces: list[float]) -> list[vc.ContactState]:
+    """A body of shear modulus 0.5 MPa and ν = 0 under one of 10^5 MPa, with μ = 0.2986."""
+    times, radius = np.arange(len(forces)) * 1.0, 0.5e-3 / 0.004116
+    return list(
+        vc.march(
+            vc.Paraboloid(radius, radius),
+            vc.Material(vc.Elastic(0.5e6), 0.0),
+            vc.ForceHistory(times, forces),
+            vc.Grid((45, 45), (9e-3, 9e-3)),
+            times,
+            indenter_material=vc.Material(vc.Elastic(1e11), 0.0),
+            friction=0.2986,
+            tangential=vc.tangential_step(displacement_x=0.0, displacement_y=0.0),
+        )
+    )
+
+
+def test_spence_in_its_first_stages_has_the_numbers_of_contact():
+    """Dissimilar bodies, whose pressure and tractions are coupled: case 6 of 35."""
+    state = pressed_in_stages(SPENCE)[-1]
+    assert state.approach == close_to(2.901e-6, rel=3e-4)
+    assert state.peak_pressure == close_to(3.941e3, rel=3e-4)
+    assert np.count_nonzero(state.slip_state == 1) == 5
+    assert np.count_nonzero(state.slip_state == 2) == 24
+
+
+@pytest.mark.slow
+def test_spence_in_all_stages_has_the_numbers_of_contact():
+    """Case 35: 225 cells stick; of 921 cells in contact there, four at the rim are open here."""
+    forces = SPENCE + [round((k / 45) ** 3, 6) for k in range(7, 36)]
+    states = pressed_in_stages(forces)
+    for case, approach, peak in ((18, 26.10, 12.20), (35, 98.74, 23.92)):
+        assert states[case - 1].approach == close_to(approach * 1e-6, rel=2e-4)
+        assert states[case - 1].peak_pressure == close_to(peak * 1e3, rel=4e-4)
+    middle, last = states[17], states[34]
+    assert np.count_nonzero(middle.slip_state == 1) == 61
+    assert np.count_nonzero(middle.slip_state == 2) == 180
+    assert np.count_nonzero(last.slip_state == 1) == 225
+    assert np.count_nonzero(last.slip_state == 2) == close_to(696, abs=4)

@@ -50,7 +50,7 @@ def tangential(random: np.random.Generator, most: np.ndarray) -> vc.TangentialHi
     )
 
 
-def largest_gap(seed: int) -> float:
+def largest_gap(seed: int, *, coupling: bool = False) -> float:
     """Largest duality gap of a random run, whose normal force goes to zero and back."""
     random = np.random.default_rng(seed)
     levels = np.append(0.05, random.choice(LEVELS, 5, p=[0.3, 0.3, 0.3, 0.1]))
@@ -65,7 +65,8 @@ def largest_gap(seed: int) -> float:
             vc.ForceHistory(CORNERS, levels, tilt_x=0.0, tilt_y=0.0),
             vc.Grid((cells, cells), (4e-3, 4e-3)),
             np.linspace(0, 5, 16),
-            friction=vc.Friction(coefficient, coupling=False),
+            indenter_material=material(random) if coupling and random.random() < 0.5 else None,
+            friction=vc.Friction(coefficient, coupling=coupling),
             tangential=tangential(random, coefficient * least),
         )
     )
@@ -86,3 +87,15 @@ def test_random_histories_are_certified(seed):
 @pytest.mark.parametrize("first", range(100, 400, 50))
 def test_many_random_histories_are_certified(first):
     assert max(largest_gap(seed) for seed in range(first, first + 50)) < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_random_histories_of_coupled_bodies_are_certified(seed):
+    """The gap of the bipotential, of pressure and tractions together."""
+    assert largest_gap(seed, coupling=True) < 1e-6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(600, 700, 50))
+def test_many_random_histories_of_coupled_bodies_are_certified(first):
+    assert max(largest_gap(seed, coupling=True) for seed in range(first, first + 50)) < 1e-6

@@ -24,7 +24,8 @@ class Friction:
     coupling : bool, optional
         False: normal contact does not feel tractions along the surface, and the surface does not
         move along itself under pressure. That is exact for two bodies of the same material, and for
-        bodies of Poisson's ratio 1/2 where the other is rigid or the same.
+        bodies of Poisson's ratio 1/2 where the other is rigid or the same; it is chosen by itself
+        there. For other bodies it is an approximation, which costs a third of the time or less.
     wear : float, optional
         Specific wear rate k of Archard's law: worn volume over normal force and way of slip
         [m³/(N m)]. It changes no contact; reports state the wear that the run would cause.

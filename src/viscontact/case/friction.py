@@ -30,8 +30,8 @@ class FrictionSection(Section):
     )
     coupling: bool = Field(
         default=True,
-        description="false: pressure does not move the surface along itself, which is exact for "
-        "bodies of the same material and of Poisson's ratio 1/2",
+        description="false: neglect that tractions change the pressure and pressure moves the "
+        "surface along itself; exact for bodies of the same material and of Poisson's ratio 1/2",
     )
 
     wear: Annotated[float, WithUnit("wear rate", POSITIVE)] | None = Field(

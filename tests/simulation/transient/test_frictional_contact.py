@@ -81,12 +81,16 @@ def test_the_normal_contact_is_that_without_friction():
 
 
 def test_coupling_is_chosen_by_itself_where_it_cancels():
+    """Bodies of one material, or of c J alike, as of ν = 0.2 and 0.35 with these moduli."""
     given = {"times": [1.0], "tangential": SHAKEN["x"], "load": vc.step(0.1)}
-    stiff = vc.Material(vc.Elastic(1e6), 0.3)
-    one = march(**given, material=stiff, indenter_material=vc.Material(vc.Elastic(1e6), 0.3))
-    assert one[0].slip_fraction > 0
-    with pytest.raises(ValueError, match=r"give Friction\(coefficient, coupling=False\)"):
-        march(**given, material=stiff)
+    one = vc.Material(vc.Elastic(1e6), 0.2)
+    others = one, vc.Material(vc.Elastic(1e6 * (1 - 2 * 0.35) / (1 - 2 * 0.2)), 0.35)
+    for other in others:
+        (state,) = march(**given, material=one, indenter_material=other)
+        # Pressure as without friction, on a quarter of the cells.
+        np.testing.assert_array_equal(state.pressure, state.pressure[::-1])
+    (coupled,) = march(**given, material=one)
+    assert np.abs(coupled.pressure - coupled.pressure[::-1]).max() > 1e-3 * coupled.peak_pressure
 
 
 @pytest.mark.parametrize(

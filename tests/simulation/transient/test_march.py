@@ -132,6 +132,18 @@ RUNS = {
             tangential=vc.tangential_ramp(displacement_y=2e-5, duration=2.0),
         )
     ),
+    "bodies that creep differently, coupled by friction": lambda: prepare_run(
+        Problem(
+            vc.Sphere(0.01),
+            vc.Material(ZENER.law, bulk_modulus=3e6),
+            vc.ForceHistory([0, 1, 2, 3], [0.1, 0.2, 0.0, 0.1]),
+            vc.Grid((12, 12), (6e-3, 6e-3)),
+            vc.uniform_times(3.0, 8),
+            vc.Material(POWER.law, 0.2),
+            friction=vc.Friction(0.4),
+            tangential=vc.TangentialHistory([0, 1, 2, 3], force_x=[0, 0.03, 0, 0.02]),
+        )
+    ),
     "moving punch that is lifted": lambda: prepare_run(
         Problem(
             vc.FlatPunch(3e-4),

@@ -200,7 +200,7 @@ def _spectrum(table: Floats, lengths: tuple[int, int], sign: int) -> Floats:
 
 
 def odd_spectrum(table: Floats, lengths: tuple[int, int], signs: tuple[int, int]) -> Floats:
-    """Imaginary part of the spectrum of a kernel, odd (-1) along one axis and even (1) along one."""
+    """Imaginary part of the spectrum of a kernel that is odd (-1) along one axis only."""
     return np.ascontiguousarray(np.fft.rfft2(_around(table, lengths, signs)).imag)
 
 

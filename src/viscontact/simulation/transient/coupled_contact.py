@@ -15,7 +15,7 @@ tractions under the last pressure:
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -55,15 +55,6 @@ FIRST_TOLERANCE, FORCING = 1e-3, 0.1
 LAST = 0.5
 
 
-@dataclass(frozen=True, eq=False)
-class JointSolution:
-    """Normal contact and tractions at the same pressure."""
-
-    contact: ContactSolution
-    slip: StepSlip
-    lift: Floats  # displacement into the surface by the new tractions [m], (nx, ny)
-
-
 class CoupledContact(FrictionalContact):
     """Frictional contact whose normal contact feels the tractions."""
 
@@ -86,7 +77,7 @@ class CoupledContact(FrictionalContact):
         domain: ContactDomain,
         guess: Guess | None,
         tolerance: float,
-    ) -> tuple[ContactSolution, JointSolution | None]:
+    ) -> tuple[ContactSolution, JointSlip | None]:
         """Solve both problems of a step; the open gap holds the lift by earlier tractions."""
         response = self._respond(step)
         mixing, wanted = AndersonMixing(), max(tolerance, FIRST_TOLERANCE)
@@ -108,10 +99,15 @@ class CoupledContact(FrictionalContact):
             checked = contact_residual(held, domain.whole, guess)
             error = max(checked.error, slip.residual)
             if error <= tolerance:
-                both = (checked.motion, checked.gap, checked.in_contact, error)
-                names = ("motion", "gap", "in_contact", "residual")
-                solved = replace(found, **dict(zip(names, both, strict=True)))
-                return solved, JointSolution(solved, slip, reached)
+                solved = replace(
+                    found,
+                    motion=checked.motion,
+                    gap=checked.gap,
+                    in_contact=checked.in_contact,
+                    residual=error,
+                )
+                gap = _bipotential_gap(slip, contact, checked.gap, self._coefficient)
+                return solved, JointSlip(replace(slip, duality_gap=gap), reached)
             wanted = max(LAST * tolerance, min(wanted, FORCING * checked.error))
             lift = mixing.next(lift, reached)
         return replace(found, residual=error, converged=False), None
@@ -200,6 +196,19 @@ def _contact_of(
     largest = problem.compliance * float(np.abs(found.found.unit_displacement).max())
     force = float(pressure.sum()) * domain.grid.cell_area
     return NormalContact(pressure, found.gap, found.in_contact, force, largest)
+
+
+def _bipotential_gap(
+    slip: StepSlip, contact: NormalContact, gap: Floats, coefficient: float
+) -> float:
+    """Σ (p |g| + μ p |w| + q·w) over the work of both forces on their displacements [-]."""
+    # De Saxcé and Feng (1998): not negative, and zero at the solution of both problems only.
+    touching = contact.in_contact
+    lost = float(contact.pressure[touching] @ np.abs(gap[touching]))
+    carried = float(contact.pressure.sum())
+    along = coefficient * carried * slip.displacement
+    most = carried * contact.displacement + along
+    return (lost + slip.duality_gap * along) / most if most > 0 else 0.0
 
 
 def _rescaled(slip: StepSlip, last: NormalContact, contact: NormalContact) -> Floats:

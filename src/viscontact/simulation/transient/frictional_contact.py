@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +59,8 @@ class SlipTrial:
         return {} if self.grip is None else grip_warnings(self.grip)
 
 
-class JointSlip(Protocol):
+@dataclass(frozen=True, eq=False)
+class JointSlip:
     """Tractions that have been found together with their normal contact."""
 
     slip: StepSlip

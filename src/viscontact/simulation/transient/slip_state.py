@@ -30,6 +30,7 @@ class StepSlip:
     forces: Floats  # along x and y [N] and torque [N m]
     duality_gap: float = 0.0  # [-]
     residual: float = 0.0  # of the friction law [-]
+    displacement: float = 0.0  # largest one of the step [m]
 
     @classmethod
     def apart(cls, shape: tuple[int, int], constraints: ShiftConstraints) -> StepSlip:
@@ -56,7 +57,16 @@ def step_slip(
     moved = found.motion * arms
     noise = ROUNDING * max(float(np.abs(moved).max()), found.displacement)
     moved[constraints.free & (np.abs(moved) < noise)] = 0.0
-    return StepSlip(traction, slip, state, moved / arms, forces, found.duality_gap, found.residual)
+    return StepSlip(
+        traction,
+        slip,
+        state,
+        moved / arms,
+        forces,
+        found.duality_gap,
+        found.residual,
+        found.displacement,
+    )
 
 
 @dataclass(frozen=True, eq=False)
