@@ -157,6 +157,12 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
         },
     ),
     "rectangle_displacement": ({**RECTANGLE, "contact_modulus": 1e9, "x": LINE, "y": LINE},),
+    "circle_displacement": (
+        {"pressure": 1e6, "radius": 1e-3, "contact_modulus": 1e9, "r": [0.0, 1e-3, 2e-3, 3e-3]},
+    ),
+    "hertz_displacement": (
+        {"peak_pressure": 1e6, "radius": 1e-3, "contact_modulus": 1e9, "r": [0.0, 1e-3, 2e-3]},
+    ),
     "rectangle_stress": ({**RECTANGLE, "x": LINE, "y": LINE, "depth": [*LINE[1:], 4e-3]},),
     "resampled": ({"surface": surfaces.Surface(np.zeros((9, 9)), 1e-3), "cell": (2e-3, 3e-3)},),
     "series_complex_compliance": ({**CREEP_SERIES, "angular_frequency": 1.0},),

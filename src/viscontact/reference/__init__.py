@@ -38,6 +38,7 @@ from viscontact.reference.punch_history import (
     punch_staircase,
     series_complex_compliance,
 )
+from viscontact.reference.round_loads import circle_displacement, hertz_displacement
 from viscontact.reference.steady_motion import (
     MovingCylinder,
     fast_sphere_friction_coefficient,
@@ -82,11 +83,13 @@ __all__ = [
     "TingTriangle",
     "WavyContact",
     "cattaneo_mindlin",
+    "circle_displacement",
     "clustered_times",
     "cone",
     "fast_sphere_friction_coefficient",
     "flat_punch",
     "full_contact_pressure",
+    "hertz_displacement",
     "hertz_elliptical",
     "hertz_line",
     "hertz_sphere",

@@ -16,15 +16,13 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import recorded_grid
+from viscontact.runs.cell_means import cell_means
 from viscontact.runs.pressure_files import TABLES, read_pressure
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
 
 #: Relative difference of coordinates that counts as none, and of a force that is not lost.
 SAME, LOST = 1e-6, 1e-9
-
-#: Points and weights of the mean over a cell, over its half edge.
-NODES, SHARES = np.polynomial.legendre.leggauss(3)
 
 
 class GivenPressure(ABC):
@@ -40,9 +38,19 @@ class GivenPressure(ABC):
         """True for a pressure that is not linear in time between its instants."""
         return False
 
+    @property
+    def is_known_everywhere(self) -> bool:
+        """True for a pressure that is known between the centres of cells, too."""
+        return False
+
     @abstractmethod
-    def at(self, time: float, position: tuple[float, float], grid: Grid) -> Floats:
-        """Mean pressure in each cell at a time [s], with its frame at a position [m]; (nx, ny)."""
+    def at(
+        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+    ) -> Floats:
+        """Mean pressure in each cell at a time [s], with its frame at a position [m]; (nx, ny).
+
+        The tolerance is that of the means of a formula, over the largest.
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +61,9 @@ class PressureMap(GivenPressure):
     times: Floats | None = None  # of the maps [s]
     axes: tuple[Floats, Floats] | None = None  # of the cells, along x and y [m]
 
-    def at(self, time: float, position: tuple[float, float], grid: Grid) -> Floats:
+    def at(
+        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+    ) -> Floats:
         """Mean pressure in each cell; a map that moves is shared out to those that it covers."""
         field = self._held(time)
         for axis, way in enumerate(position):
@@ -94,27 +104,36 @@ class PressureFormula(GivenPressure):
         """True if the time is an argument."""
         return self.timed
 
-    def at(self, time: float, position: tuple[float, float], grid: Grid) -> Floats:
-        """Mean pressure in each cell, by Gauss' rule with three points along each axis."""
-        found = np.zeros(grid.shape)
-        dx, dy = grid.cell_size
-        for node_x, share_x in zip(NODES, SHARES, strict=True):
-            for node_y, share_y in zip(NODES, SHARES, strict=True):
-                x = _wrapped(grid.x + node_x * dx / 2 - position[0], 0, grid)
-                y = _wrapped(grid.y + node_y * dy / 2 - position[1], 1, grid)
-                found += share_x * share_y / 4 * self._value(x[:, None], y[None, :], time)
-        return found
+    @property
+    def is_known_everywhere(self) -> bool:
+        """True."""
+        return True
+
+    def at(
+        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+    ) -> Floats:
+        """Mean pressure in each cell."""
+
+        def value(x: Floats, y: Floats) -> Floats:
+            along, across = (
+                _wrapped(each - way, axis, grid)
+                for axis, (each, way) in enumerate(zip((x, y), position, strict=True))
+            )
+            return self._value(along, across, time)
+
+        return cell_means(value, grid, tolerance)
 
     def _value(self, x: Floats, y: Floats, time: float) -> Floats:
-        given = self.function(x, y, time) if self.timed else self.function(x, y)
-        value = real_array("pressure(x, y)", given, "Pa")
-        wanted = (x.size, y.size)
+        wanted = np.broadcast_shapes(x.shape, y.shape)
         try:
+            given = self.function(x, y, time) if self.timed else self.function(x, y)
+            value = real_array("pressure(x, y)", given, "Pa")
             whole = np.broadcast_to(value, wanted)
-        except ValueError:
+        except (ValueError, IndexError) as error:
             raise ValueError(
-                f"pressure(x, y) must give a value for each of {wanted} cells, got shape "
-                f"{value.shape}; compute with NumPy's functions on the arrays x and y"
+                f"pressure(x, y) must give a value for each point of arrays x and y of any shape, "
+                f"as here {x.shape} and {y.shape}: {error}; compute with NumPy's functions, value "
+                "by value"
             ) from None
         if not np.isfinite(whole).all():
             raise ValueError(

@@ -72,9 +72,11 @@ def under_pressure(
         ``pressure`` and ``displacement`` (positive into the body) over (time, x, y), ``force``,
         ``eccentricity_x``, ``eccentricity_y``, ``peak_pressure``, and the extents
         ``contact_length``, ``contact_width`` of the loaded cells over ``time``, in SI units.
-        ``displacement_error`` is the largest change over the cells if the pressure is averaged over
+        ``displacement_error`` is the largest error over the cells. Of a formula it is three
+        quarters of the change by cells three times as long and wide, which is largest at edges;
+        elsewhere the displacement is much better. Of a map it is the change if it is averaged over
         twice as long and wide cells: three times the error of a pressure that is smooth over the
-        cells, and about the error of one with edges between their borders. It is not an error for a
+        cells, and about the error of one with edges between their borders, but no error for a
         pressure that is uniform in each cell, under which the displacement is exact. Added are
         the change by twice as many instants, where pressure and path are not linear between them,
         and the errors of the layers' terms and of a law that is found by numbers.
@@ -88,9 +90,12 @@ def under_pressure(
     Notes
     -----
     u(t) = Σ K_m ∫ J_m(t - t') dp(t'), exact for a pressure that is uniform in each cell and linear
-    in time (Love 1929 for a half-space; Boltzmann 1874). On a grid that is periodic along both axes
-    the displacement of a half-space counts from the mean plane, on one that is periodic along one
-    axis from a place at the distance of its size; layers on a rigid base need no such datum.
+    in time (Love 1929 for a half-space; Boltzmann 1874). A formula is averaged over cells, divided
+    where it has edges, and over up to 27² small ones in each for the displacement, which is
+    extrapolated from two sizes of them; not if it moves or changes at many instants. On a grid
+    that is periodic along both axes the displacement of a half-space counts from the mean plane, on
+    one that is periodic along one axis from a place at the distance of its size; layers on a rigid
+    base need no such datum.
 
     Examples
     --------
@@ -143,8 +148,8 @@ def _dataset(
     loaded: LoadedSurface, material: Material | Layered, times: Floats, errors: bool
 ) -> xr.Dataset:
     grid, surface = loaded.grid, _surface(material, times)
-    displacement = loaded.displacement(surface, times)
-    pressure = np.stack(list(loaded.pressures(times)))
+    displacement, error = loaded.displacement_and_error(surface, times, errors=errors)
+    pressure = loaded.mean_pressures(times)
     scalars = {
         name: ("time", values, SCALARS[name].attributes)
         for name, values in _resultants(pressure, grid).items()
@@ -153,7 +158,6 @@ def _dataset(
         attributes = {"units": "m", "long_name": f"extent of the loaded cells along {meaning}"}
         scalars[name] = ("time", _extents(pressure != 0, axis, grid), attributes)
     if errors:
-        error = loaded.error(surface, times, displacement)
         error += _relative_error(surface) * np.abs(displacement).max(axis=(1, 2))
         scalars["displacement_error"] = ("time", error, _ERROR)
     fields = {"pressure": pressure, "displacement": displacement}

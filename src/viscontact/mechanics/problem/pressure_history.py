@@ -15,7 +15,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.problem.surface import SurfaceTerm, SurfaceTerms
+from viscontact.mechanics.problem.surface import SurfaceTerms
 
 
 def creep_weights(compliance: ContactCompliance, instants: Floats, times: Floats) -> Floats:
@@ -44,25 +44,34 @@ def displacement_under(
     surface: SurfaceTerms,
     grid: Grid,
     times: Floats,
+    parts: tuple[int, int] = (1, 1),
 ) -> Floats:
     """Displacement at times [m], shape (times, nx, ny), under the pressures at the instants [Pa].
 
-    The instants begin with that at which the pressure comes, and contain the times.
+    The instants begin with that at which the pressure comes, and contain the times, or are fewer if
+    the pressure is held. Of so many cells along each axis, `parts`, those in the middle are kept.
     """
     weights = [creep_weights(term.compliance, instants, times) for term in surface.terms]
+    operators = [ContactDomain(grid, response=t.response).convolution for t in surface.terms]
+    found = np.zeros((times.size, *(n // m for n, m in zip(grid.shape, parts, strict=True))))
+    if instants.size < times.size:
+        for index, pressure in enumerate(pressures):
+            for operator, of_term in zip(operators, weights, strict=True):
+                moved = middles(operator.apply(pressure), parts)
+                found += of_term[:, index, None, None] * moved
+        return found
     weighted = np.zeros((len(weights), times.size, *grid.shape))  # ∫ J_m dp of each term [-]
     for index, pressure in enumerate(pressures):
         for total, of_term in zip(weighted, weights, strict=True):
             for k in np.flatnonzero(of_term[:, index]):
                 total[k] += of_term[k, index] * pressure
-    found = np.zeros((times.size, *grid.shape))
-    for term, total in zip(surface.terms, weighted, strict=True):
-        _add_displacement(found, total, term, grid)
+    for operator, total in zip(operators, weighted, strict=True):
+        for field, each in zip(found, total, strict=True):
+            field += middles(operator.apply(each), parts)
     return found
 
 
-def _add_displacement(found: Floats, total: Floats, term: SurfaceTerm, grid: Grid) -> None:
-    """Add the displacement of one term to that of the others."""
-    operator = ContactDomain(grid, response=term.response).convolution
-    for field, each in zip(found, total, strict=True):
-        field += operator.apply(each)
+def middles(field: Floats, parts: tuple[int, int]) -> Floats:
+    """Values in the middle one of so many cells along each axis, odd numbers."""
+    along, across = parts
+    return field[along // 2 :: along, across // 2 :: across]
