@@ -23,6 +23,9 @@ SIMPSON: Rule = (np.array([-1 + 1e-6, 0.0, 1 - 1e-6]), np.array([1.0, 4.0, 1.0])
 #: Most times that a cell is halved along both axes.
 HALVINGS = 13
 
+#: Most parts at once, as a formula of noise would be divided everywhere.
+MOST_PARTS = 2_000_000
+
 #: Tolerance that the first halving is taken to reach, and each further one a quarter of it: so many
 #: are done in any case, as rules may agree by chance on a cell that an edge crosses.
 UNTRIED = 1e-3
@@ -41,9 +44,9 @@ def cell_means(values: PointValues, grid: Grid, tolerance: float) -> Floats:
     Gauss' on its quarters. Where they differ the quarters are divided further. With an infinite
     tolerance it is Gauss' rule on the cell.
 
-    >>> square = Grid((1, 1), (2.0, 2.0))
-    >>> circle = cell_means(lambda x, y: 1.0 * (x**2 + y**2 < 1), square, 1e-5)
-    >>> print(f"{4 * circle[0, 0]:.4f}")
+    >>> square = Grid((4, 4), (2.0, 2.0))
+    >>> circle = cell_means(lambda x, y: 1.0 * (x**2 + y**2 < 1), square, 1e-6)
+    >>> print(f"{circle.sum() * square.cell_area:.4f}")
     3.1416
     """
     half = (grid.cell_size[0] / 2, grid.cell_size[1] / 2)
@@ -94,13 +97,18 @@ def _divided(
         quarters = _of_quarters(values, x, y, half)
         mean = quarters.mean(axis=0)
         fine = (halvings >= least) & (np.abs(mean - whole) * share**OF_PARTS <= bound)
+        if 4 * np.count_nonzero(~fine) > MOST_PARTS:
+            fine[:] = True
         np.add.at(total, owner[fine], share * mean[fine])
         rough = ~fine
+        if not rough.any():
+            break
         half, share = (half[0] / 2, half[1] / 2), share / 4
         x, y = (
             np.concatenate([each[rough] + side[axis] * half[axis] for side in _SIDES])
             for axis, each in ((0, x), (1, y))
         )
         owner, whole = np.tile(owner[rough], 4), quarters[:, rough].ravel()
-    np.add.at(total, owner, share * whole)
+    else:
+        np.add.at(total, owner, share * whole)
     return total
