@@ -66,6 +66,17 @@ def test_a_body_that_is_unloaded_slips_altogether_when_friction_carries_the_forc
     assert "the whole contact slips" in ds.attrs["events"]
 
 
+@pytest.mark.slow
+def test_coupled_bodies_slip_altogether_when_friction_carries_the_force_no_longer():
+    """Of a rigid sphere on a body of ν = 0, whose pressure feels the tractions."""
+    held = vc.TangentialHistory([0, 1, 1.5], force_x=[0.0, 0.0, 0.15 * FORCE])
+    program = "hold force for 0.5 s; unload at 0.5 N/s until the whole contact slips"
+    ds = run(program, cells=14, tangential=held, friction=COEFFICIENT)
+    # Q = μ W at half of the force; the last cell slips before.
+    assert float(ds.time[-1]) == close_to(2.5, rel=2e-2)
+    assert float(ds.time[-1]) <= 2.5
+
+
 def test_a_slip_fraction_is_reached_within_a_cell_of_the_ring():
     ds = run("hold force for 2 s; stop when slip_fraction reaches 0.5")
     # 1 - (c/a)² with c/a = (1 - Q/(μ W))^(1/3).

@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable
 from copy import copy
 from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy
@@ -34,6 +35,7 @@ from viscontact.simulation.transient.march import domain_of, not_converged, refu
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
+from viscontact.simulation.transient.step_solution import StepSolution
 from viscontact.simulation.transient.stepper import Stepper, StepTooLongError, TrialStep
 from viscontact.units.formatting import format_quantity
 
@@ -205,19 +207,37 @@ class EventSearch:
         self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
 
     def _solve(self, step: TimeStep) -> _SolvedStep:
-        trial = self._stepper.trial(step)
+        slides = False
+        try:
+            trial = self._stepper.trial(step)
+        except SlidingError:  # of tractions that are coupled with the pressure
+            if not self._may_slide:
+                raise
+            trial, slides = self._stepper.without_friction().trial(step), True
         if trial.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
         solution = self._stepper.whole_solution(trial)
         observer = copy(self._observer)  # it adds the work of each step that it sees
         state = observer.evaluate(step, trial.point, solution)
+        slip = None if slides else self._slip_of(step, solution, trial)
+        found: dict[str, Any] = {"slip_fraction": 1.0} if slip is None else dict(slip.values)
+        return _SolvedStep(step, trial, replace(state, **found), observer, slip)
+
+    def _slip_of(
+        self, step: TimeStep, solution: StepSolution, trial: TrialStep
+    ) -> SlipTrial | None:
+        """Tractions of a step; None where the body slides away and a condition waits for it."""
         try:
-            slip = self._friction.trial(step, solution, trial.joint)
+            return self._friction.trial(step, solution, trial.joint)
         except SlidingError:
-            if not any(each.scalar == SLIDING for each in self._course.conditions):
+            if not self._may_slide:
                 raise
-            return _SolvedStep(step, trial, replace(state, slip_fraction=1.0), observer, None)
-        return _SolvedStep(step, trial, replace(state, **slip.values), observer, slip)
+            return None
+
+    @property
+    def _may_slide(self) -> bool:
+        """True if a condition waits for the whole contact to slip."""
+        return any(each.scalar == SLIDING for each in self._course.conditions)
 
     def _locate(self, condition: Condition, crossed: _SolvedStep) -> _SolvedStep:
         """Return the step up to the instant at which a condition is met."""

@@ -15,6 +15,7 @@ It departs from the paper in step 2: within a step the pressure is linear in tim
 from __future__ import annotations
 
 import math
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -137,6 +138,12 @@ class Stepper:
             *(posed.point, solution, response, pairs, reference, outcome, error),
             *(adhesive, joint, posed.earlier_lift),
         )
+
+    def without_friction(self) -> Stepper:
+        """The same stepper, whose normal contact does not feel tractions, for trials."""
+        same = copy(self)
+        same._friction = Uncoupled()
+        return same
 
     def whole_solution(self, trial: TrialStep) -> StepSolution:
         """Return the solution of a step on the whole grid, without accepting it."""
