@@ -41,10 +41,12 @@ class CouplingFilter:
 
     def normal(self, traction: Floats) -> Floats:
         """Displacement into the surface under tractions along it [Pa m]."""
-        spectra = self._spectra(traction)
-        found = spectra[:1]
-        found[0] = 1j * (self._symbol[0] * spectra[0] + self._symbol[1] * spectra[1])
-        return np.asarray(self._fields(found)[0])
+        x, y = spectra = self._spectra(traction)
+        x *= self._symbol[0]
+        y *= self._symbol[1]
+        x += y
+        x *= 1j
+        return np.asarray(self._fields(spectra[:1])[0])
 
     def along(self, pressure: Floats) -> Floats:
         """Displacement along the surface under pressure [Pa m], (2, nx, ny)."""

@@ -9,7 +9,7 @@ tractions under the last pressure:
 3. The displacement by these tractions, and the residual of the normal contact in it. Where it meets
    the tolerance both problems are solved at the same pressure and tractions.
 4. The next displacement by Anderson mixing. Both solves go as far as the coupling is known: up to a
-   part of the last residual.
+   part of the last residual, as a length.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.mechanics.contact.contact_residual import contact_residual
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.mixing import AndersonMixing
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.region import Region
@@ -43,13 +44,20 @@ from viscontact.simulation.transient.frictional_contact import (
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import StepSlip
+from viscontact.simulation.transient.slip_step import SlipGuess
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Alternations of one step.
 MOST_ALTERNATIONS = 40
 
 #: Tolerance of the first solves, and part of the last residual that the next ones leave.
-FIRST_TOLERANCE, FORCING = 1e-3, 0.1
+FIRST_TOLERANCE, FORCING = 3e-3, 0.03
+
+#: Displacement under the pressure over that along the surface in a step, where it is not known yet,
+#: and the largest tolerance of tractions.
+USUAL_RATIO, MOST_LEFT = 10.0, 0.1
+
+TINY = float(np.finfo(np.float64).tiny)
 
 #: Part of the tolerance that the last solves leave.
 LAST = 0.5
@@ -91,8 +99,11 @@ class CoupledContact(FrictionalContact):
                 return found, None
             guess = found.found
             last, contact = contact, _contact_of(found, problem, domain)
-            start = traction if last is None or slip is None else _rescaled(slip, last, contact)
-            slip = self._slip(step, response, contact, start, wanted)
+            start = SlipGuess(traction)
+            if last is not None and slip is not None:
+                start = _rescaled(slip, last, contact, self._coefficient)
+            along = _tolerance_along(wanted, tolerance, contact, slip)
+            slip = self._slip(step, response, contact, start, along)
             traction = slip.traction
             reached = self._lift(response, traction)
             held = replace(problem, open_gap=problem.open_gap + reached)
@@ -139,7 +150,7 @@ class CoupledContact(FrictionalContact):
         step: TimeStep,
         response: CouplingStep,
         contact: NormalContact,
-        start: Floats,
+        start: SlipGuess,
         tolerance: float,
     ) -> StepSlip:
         """Tractions at a pressure, which moves the surface along itself."""
@@ -211,11 +222,32 @@ def _bipotential_gap(
     return (lost + slip.duality_gap * along) / most if most > 0 else 0.0
 
 
-def _rescaled(slip: StepSlip, last: NormalContact, contact: NormalContact) -> Floats:
+def _tolerance_along(
+    wanted: float, tolerance: float, contact: NormalContact, last: StepSlip | None
+) -> float:
+    """Tolerance of tractions at which they err by the same way as the normal contact."""
+    if wanted <= 2 * LAST * tolerance:  # this alternation may be the last one
+        return tolerance
+    ratio = USUAL_RATIO
+    if last is not None and last.displacement > 0:
+        ratio = max(contact.displacement / last.displacement, 1.0)
+    return max(tolerance, min(wanted * ratio, MOST_LEFT))
+
+
+def _rescaled(
+    slip: StepSlip, last: NormalContact, contact: NormalContact, coefficient: float
+) -> SlipGuess:
     """Tractions of the last pressure on the circles of the next one, in cells that slip."""
     slips = (slip.state == 2) & last.in_contact
     ratio = np.divide(contact.pressure, last.pressure, out=np.ones(slips.shape), where=slips)
-    return np.asarray(slip.traction * ratio)
+    traction = slip.traction * ratio
+    # A cell that has come into contact since then is at the rim, where it slips.
+    enters = contact.in_contact & ~last.in_contact
+    if enters.any() and slip.way is not None:
+        way = slip.way[:, enters]
+        against = way / np.maximum(lengths(way), TINY)
+        traction[:, enters] = -coefficient * contact.pressure[enters] * against
+    return SlipGuess(traction, slip.motion)
 
 
 def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:

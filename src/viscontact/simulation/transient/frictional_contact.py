@@ -32,6 +32,7 @@ from viscontact.simulation.transient.shear_history import ShearHistory, ShearSte
 from viscontact.simulation.transient.slip_results import grip_of, slip_fields, slip_scalars
 from viscontact.simulation.transient.slip_state import SlipState, StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import (
+    SlipGuess,
     SlipStep,
     refuse_force_apart,
     shift_constraints,
@@ -139,7 +140,7 @@ class FrictionalContact(Uncoupled):
         if contact.in_contact.any():
             tolerance = self._run.problem.tolerance
             found = (
-                self._solved(known, region, self._guess(step), tolerance)
+                self._solved(known, region, SlipGuess(self._guess(step)), tolerance)
                 if joint is None
                 else joint.slip
             )
@@ -185,7 +186,9 @@ class FrictionalContact(Uncoupled):
             self._coefficient,
         )
 
-    def _solved(self, known: SlipStep, region: Region, start: Floats, tolerance: float) -> StepSlip:
+    def _solved(
+        self, known: SlipStep, region: Region, start: SlipGuess, tolerance: float
+    ) -> StepSlip:
         """Tractions of a step in contact."""
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
         return step_slip(found, known.constraints, self._domain, region, known.carried)

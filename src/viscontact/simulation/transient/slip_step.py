@@ -25,6 +25,14 @@ LEAST_SHIFT = 0.01
 
 
 @dataclass(frozen=True, eq=False)
+class SlipGuess:
+    """Tractions on the whole grid that a solve begins with."""
+
+    traction: Floats  # [Pa], (2, nx, ny)
+    motion: Floats | None = None  # shifts [m] and rotation [rad] in the step, if known
+
+
+@dataclass(frozen=True, eq=False)
 class SlipStep:
     """What is known of a step before its tractions are."""
 
@@ -73,13 +81,14 @@ def solved_on(
     domain: ShearDomain,
     region: Region,
     step: SlipStep,
-    start: Floats,
+    start: SlipGuess,
     tolerance: float,
 ) -> SlipSolution:
-    """Tractions of a step on a region, from a start on the whole grid [Pa]."""
+    """Tractions of a step on a region, from a guess on the whole grid."""
     problem = _slip_problem(run, region, step)
     block = domain.block(region, step.response.kappa)
-    found = solve_slip(problem, block, start[:, *region.cut], tolerance=tolerance)
+    traction = start.traction[:, *region.cut]
+    found = solve_slip(problem, block, traction, tolerance=tolerance, motion=start.motion)
     if not found.converged:
         raise _failure(step, found, block.shift)
     return found

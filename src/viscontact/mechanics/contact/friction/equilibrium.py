@@ -30,17 +30,23 @@ FALLBACKS = (1.0, 0.3)
 #: Relative difference of objectives that is rounding.
 ROUNDING = 1e-11
 
-#: Residual up to which tractions are judged in double precision.
-CLOSE = 1e-5
+#: Residual from which on the next Newton step may meet the tolerance, and is judged in double
+#: precision at once; and tolerance that single precision is too coarse for.
+CLOSE, FINE = 3e-4, 1e-5
 
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
 
 
 def solve_slip(
-    problem: SlipProblem, block: ShearBlock, start: Floats, *, tolerance: float
+    problem: SlipProblem,
+    block: ShearBlock,
+    start: Floats,
+    *,
+    tolerance: float,
+    motion: Floats | None = None,
 ) -> SlipSolution:
-    """Solve for traction and rigid motion from a given traction; see the module.
+    """Solve for traction and rigid motion from a given traction, and a motion; see the module.
 
     ``converged`` is False if the residual or the balances are not met, as where the prescribed
     forces exceed what friction carries.
@@ -48,25 +54,25 @@ def solve_slip(
     shift = block.shift
     slips = on_circle(start, problem.bound, problem.in_contact)
     traction = balanced(start, problem.bound, shift, problem.constraints, slips)
-    found = _judged(problem, block, traction)
+    found = _judged(problem, block, traction, motion)
     iterations, convolutions, failures = 0, 1, 0
     for _ in range(MAX_STEPS):
         if found.error <= tolerance:
             break
         step = newton_step(problem, block, traction, found, tolerance)
         iterations += step.iterations
-        convolutions += step.iterations + 1
+        convolutions += step.convolutions
         for part in (*PARTS, FALLBACKS[failures % len(FALLBACKS)]):
             trial = traction + part * step.traction
             trial = balanced(trial, problem.bound, shift, problem.constraints, step.slips)
-            motion = found.motion + part * step.motion
-            judged = _judged_near(problem, block, (traction, found), trial, motion)
+            moved = found.motion + part * step.motion
+            judged = _judged_near(problem, block, (traction, found), trial, moved, tolerance)
             convolutions += 1
             if _is_better(judged, found):
                 break
         else:
             failures += 1
-        if judged.error <= tolerance and found.error > CLOSE:
+        if judged.error <= tolerance <= FINE and found.error > CLOSE:
             judged = _judged(problem, block, trial, judged.motion)
             convolutions += 1
         traction, found = trial, judged
@@ -95,10 +101,11 @@ def _judged_near(
     known: tuple[Floats, SlipResidual],
     traction: Floats,
     motion: Floats,
+    tolerance: float,
 ) -> SlipResidual:
     """Residual of a traction near a known one: of the change, in single precision, while far."""
     before, found = known
-    if found.error <= CLOSE:
+    if found.error <= CLOSE and tolerance <= FINE:
         return _judged(problem, block, traction, motion)
     moved = found.unit_displacement + block.search.apply(traction - before)
     return slip_residual(problem, block.shift, traction, moved, motion)
@@ -121,6 +128,7 @@ def _solution(
         traction,
         found.motion,
         found.slip * slips,
+        found.slip,
         problem.in_contact.astype(np.int8) + slips,
         found.error,
         found.duality_gap,

@@ -17,6 +17,9 @@ from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
 #: residual between them: far away, where cells that slip are found, more would be in vain.
 LEAST_LEFT, MOST_LEFT, LEFT = 0.01, 0.3, 5.0
 
+#: Imbalance over what friction carries that needs no restoring: that of balanced tractions.
+RESTORED = 1e-12
+
 #: Search directions of one step.
 MAX_DIRECTIONS = 120
 
@@ -158,6 +161,7 @@ class NewtonStep:
     motion: Floats  # change of the motion [m, m, rad]
     slips: Bools  # cells that are taken to slip
     iterations: int
+    convolutions: int
 
 
 def newton_step(
@@ -176,16 +180,20 @@ def newton_step(
     residual = (target / largest).astype(np.float32)
     steps = ConstrainedSteps(system)
     # Resultants first, of which conjugate gradients change nothing.
-    lacking = problem.constraints.lacking(block.shift.resultants(traction))
-    first = steps.restoring(lacking / largest)
-    if first.any():
+    resultants = block.shift.resultants(traction)
+    first = np.zeros(residual.shape, np.float32)
+    carried, restores = float(problem.bound.sum()) * block.shift.cell_area, False
+    if problem.constraints.imbalance(resultants, carried) > RESTORED:
+        restores = True
+        first = steps.restoring(problem.constraints.lacking(resultants) / largest)
         residual = residual - system.apply(first)
     least = _forcing(found.error, tolerance)
     step, motion, iterations = conjugate_gradients(system, steps, residual, least)
     # In double precision, as cells that slip must not leave their circles by rounding.
     along: Floats = (first + step).astype(np.float64) * largest
     moved = directions.projected(along)
-    return NewtonStep(moved, -motion * (largest * system.unit), directions.slips, iterations)
+    change = -motion * (largest * system.unit)
+    return NewtonStep(moved, change, directions.slips, iterations, iterations + restores)
 
 
 def _forcing(error: float, tolerance: float) -> float:

@@ -60,6 +60,7 @@ class SlipSolution:
     traction: Floats  # [Pa], (2, nx, ny)
     motion: Floats  # shifts [m] and rotation [rad] in the step
     slip: Floats  # of the surface under the body in the step, 0 where cells stick [m], (2, nx, ny)
+    way: Floats  # of the surface under the body in the step, of all cells [m], (2, nx, ny)
     state: Flags  # 0 open, 1 stick, 2 slip
     residual: float  # largest deviation of slip from the friction law over the displacement [-]
     duality_gap: float  # bound of the energy of the error over that of the step [-]
