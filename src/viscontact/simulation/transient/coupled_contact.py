@@ -8,8 +8,9 @@ tractions under the last pressure:
 2. Tractions at this pressure, from the last ones.
 3. The displacement by these tractions, and the residual of the normal contact in it. Where it meets
    the tolerance both problems are solved at the same pressure and tractions.
-4. The next displacement by Anderson mixing. Both solves go as far as the coupling is known: up to a
-   part of the last residual, as a length.
+
+Each alternation leaves a tenth to a thirtieth of the residual. Both solves go as far as the
+coupling is known: up to a part of the last residual, as a length.
 """
 
 from __future__ import annotations
@@ -155,7 +156,7 @@ class CoupledContact(FrictionalContact):
     ) -> StepSlip:
         """Tractions at a pressure, which moves the surface along itself."""
         region = self._region_of(contact)
-        known = self._known(step, contact, region)
+        known = self._known(step, contact, region, response.shear)
         later = response.of_pressure(contact.pressure)
         moved = self._on(region).along((later - response.before)[region.cut])
         known = replace(known, past=known.past + moved)
@@ -215,7 +216,7 @@ def _bipotential_gap(
     """Σ (p |g| + μ p |w| + q·w) over the work of both forces on their displacements [-]."""
     # De Saxcé and Feng (1998): not negative, and zero at the solution of both problems only.
     touching = contact.in_contact
-    lost = float(contact.pressure[touching] @ np.abs(gap[touching]))
+    lost = float((contact.pressure[touching] * np.abs(gap[touching])).sum())
     carried = float(contact.pressure.sum())
     along = coefficient * carried * slip.displacement
     most = carried * contact.displacement + along

@@ -136,7 +136,7 @@ class FrictionalContact(Uncoupled):
         """Solve the tractions at the end of a step, after that of the last one accepted."""
         before, grid, contact = self._state, self._run.grid, solution.contact
         region = self._region_of(contact)
-        known = self._known(step, contact, region)
+        known = self._known(step, contact, region, self._history.respond(step))
         if contact.in_contact.any():
             tolerance = self._run.problem.tolerance
             found = (
@@ -172,9 +172,10 @@ class FrictionalContact(Uncoupled):
         """Region of cells that carry tractions, or have carried some."""
         return self._domain.region_of(self._state.touched | contact.in_contact)
 
-    def _known(self, step: TimeStep, contact: NormalContact, region: Region) -> SlipStep:
+    def _known(
+        self, step: TimeStep, contact: NormalContact, region: Region, response: ShearStep
+    ) -> SlipStep:
         """What is known of a step with its normal contact."""
-        response = self._history.respond(step)
         point = self._load.at(step.time, side=step.side)
         return SlipStep(
             step.time,

@@ -10,7 +10,7 @@ value r_m at the end of the step before.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -35,6 +35,7 @@ class ShearStep:
     terms: tuple[ShearTerm, ...]
     responses: tuple[HereditaryResponse, ...]
     before: tuple[Floats, ...]  # hereditary integrals of the tractions before [-], (2, nx, ny)
+    _pasts: dict[Region, Floats] = field(default_factory=dict)
 
     @property
     def compliance(self) -> float:
@@ -51,6 +52,11 @@ class ShearStep:
 
     def past(self, domain: ShearDomain, region: Region) -> Floats:
         """Displacement of a region in the step by earlier tractions [m], (2, nx, ny)."""
+        if region not in self._pasts:
+            self._pasts[region] = self._past(domain, region)
+        return self._pasts[region]
+
+    def _past(self, domain: ShearDomain, region: Region) -> Floats:
         cut, parts = region.cut, domain.parts(region)
         found = np.zeros((2, *region.shape))
         for term, response, before in zip(self.terms, self.responses, self.before, strict=True):

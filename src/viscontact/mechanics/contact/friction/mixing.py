@@ -6,8 +6,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 
-#: Earlier iterates that are mixed.
-DEPTH = 3
+#: Earlier iterates that are mixed. Below a coefficient of friction of 2 they change little.
+DEPTH = 6
 
 #: Singular values of the changes of the residual, over the largest, that count as none.
 FLAT = 1e-6
@@ -27,14 +27,15 @@ class AndersonMixing:
         self._residuals = [*self._residuals[-self._depth :], image - given]
         if len(self._images) == 1:
             return image
-        changes = np.stack([(self._residuals[-1] - each).ravel() for each in self._residuals[:-1]])
-        gram = changes @ changes.T
+        last = self._residuals[-1]
+        changes = np.stack([last - each for each in self._residuals[:-1]])
+        # Not as matrix products: BLAS would start threads.
+        gram = np.einsum("aij,bij->ab", changes, changes)
         scale = float(np.trace(gram))
         if not scale > 0:
             return image
-        weights = np.linalg.pinv(gram / scale, rcond=FLAT, hermitian=True) @ (
-            changes @ self._residuals[-1].ravel() / scale
-        )
+        ahead = np.einsum("aij,ij->a", changes, last) / scale
+        weights = np.linalg.pinv(gram / scale, rcond=FLAT, hermitian=True) @ ahead
         found = image.copy()
         for weight, each in zip(weights, self._images[:-1], strict=True):
             found -= weight * (image - each)
