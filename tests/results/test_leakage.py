@@ -13,7 +13,12 @@ import xarray as xr
 import viscontact as vc
 from closeness import close_to
 from viscontact.results.descriptions import describe
-from viscontact.results.leakage.channels import FlowAxis, channel, critical_constriction
+from viscontact.results.leakage.channels import (
+    FlowAxis,
+    channel,
+    critical_constriction,
+    critical_gap_error,
+)
 from viscontact.results.leakage.effective_medium import effective_transmissivity
 from viscontact.results.leakage.flow import of_mean_gap, solved_flow
 from viscontact.verify import run_cases
@@ -158,6 +163,20 @@ def test_critical_gap_is_the_narrowest_place_of_the_widest_channel() -> None:
     found = critical_constriction(gap, gap > 0, FlowAxis(0, "period", PERIODIC))
     assert found == (2.0, 2, 1)
     assert critical_constriction(gap, gap > 0, FlowAxis(1, "period", PERIODIC))[0] == 0.0
+
+
+def test_error_of_the_critical_gap_covers_the_saddle_between_cells() -> None:
+    # Crossed waves: the highest valley along x has its pass where one cosine is 1, the other -1.
+    stated = []
+    for cells in (10, 20, 40):
+        for shift in (0.0, 0.13, 0.31):
+            x = 2 * np.pi * (np.arange(cells) + shift) / cells
+            gap = 1e-6 * (1 + 0.4 * np.cos(x)[:, None] + 0.4 * np.cos(x + 0.7))
+            flow = FlowAxis(0, "period", PERIODIC)
+            off = abs(critical_constriction(gap, gap > 0, flow)[0] - 1e-6)
+            stated.append(critical_gap_error(gap, gap > 0, flow))
+            assert off <= stated[-1] < 1.5e-7
+    assert stated[2] > 2 * stated[5] > 4 * stated[8]
 
 
 def rough(seed: int, closed: float) -> Any:

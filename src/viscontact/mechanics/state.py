@@ -193,7 +193,7 @@ class ContactState:
         Of a fluid through the gap, as of `leakage`: h³/12 between parallel plates [m³], volume over
         time [m³/s], and gap at the narrowest place of the widest channel [m]; NaN at instants
         whose fields are not kept. None without a fluid in the case.
-    transmissivity_error, leak_rate_error : float or None
+    transmissivity_error, leak_rate_error, critical_gap_error : float or None
         Their errors.
 
     least_pressure : float or None
@@ -283,6 +283,7 @@ class ContactState:
     leak_rate: float | None = None
     leak_rate_error: float | None = None
     critical_gap: float | None = None
+    critical_gap_error: float | None = None
     least_pressure: float | None = None
     tensile_area: float | None = None
     adhesion_energy: float | None = None

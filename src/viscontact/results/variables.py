@@ -289,6 +289,7 @@ SCALARS = {
         *("m", "gap at the narrowest place of the widest channel", 42, "Critical gap"),
         Place.KEY | Place.CARD | Place.FACTS,
     ),
+    "critical_gap_error": _leak("m", "error of the critical gap"),
     "temperature": Variable(
         "K",
         "temperature of the bodies",

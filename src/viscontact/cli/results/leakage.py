@@ -79,7 +79,14 @@ def _print(found: xr.Dataset) -> None:
     axis, many = run_axis(found), "direction" in found.dims
     unit, factor = _rate_unit(found["leak_rate"].values)
     rate = [f"leak rate [{unit}]", "±"] if factor else []
-    headings = [axis.name, *(["along"] if many else []), "contact", "critical gap", "effective gap"]
+    headings = [
+        axis.name,
+        *(["along"] if many else []),
+        "contact",
+        "critical gap",
+        "±",
+        "effective gap",
+    ]
     table = Table(*headings, *rate, box=SIMPLE_HEAD, show_edge=False)
     directions = found["direction"].values.tolist() if many else [""]
     for index, place in enumerate(time_labels(axis.values(found).tolist(), axis.unit)):
@@ -101,14 +108,21 @@ def _print(found: xr.Dataset) -> None:
 def _cells(row: xr.Dataset, factor: float) -> list[str]:
     fraction = f"{100 * float(row.contact_fraction):.3g} %"
     if not float(row.percolates):
-        return [fraction, "closed", "0", *(["0", ""] if factor else [])]
-    gaps = [format_quantity(float(row[name]), "m", 3) for name in ("critical_gap", "effective_gap")]
+        return [fraction, "closed", "", "0", *(["0", ""] if factor else [])]
+    critical, effective = (
+        format_quantity(float(row[name]), "m", 3) for name in ("critical_gap", "effective_gap")
+    )
+    narrowest = _spread(float(row.critical_gap), float(row.critical_gap_error))
+    gaps = [critical, narrowest, effective]
     if not factor:
         return [fraction, *gaps]
     rate, error = float(row.leak_rate), float(row.leak_rate_error)
-    # Near closing only the order is known.
-    shown = f"{100 * error / rate:.2g} %" if error < rate else f"factor {1 + error / rate:.2g}"
-    return [fraction, *gaps, f"{rate / factor:.3g}", shown]
+    return [fraction, *gaps, f"{rate / factor:.3g}", _spread(rate, error)]
+
+
+def _spread(value: float, error: float) -> str:
+    """Error over a value; a factor near closing, where only the order is known."""
+    return f"{100 * error / value:.2g} %" if error < value else f"factor {1 + error / value:.2g}"
 
 
 def _rate_unit(rates: Floats) -> tuple[str, float]:

@@ -32,18 +32,20 @@ class FlowAxis:
         return joined[0], joined[1]
 
 
-def channel(opened: Bools, flow: FlowAxis) -> Bools:
-    """Cells of the components through which a fluid can flow along an axis; edges join cells.
+def channel(opened: Bools, flow: FlowAxis, *, corners: bool = False) -> Bools:
+    """Cells of the components through which a fluid can flow along an axis.
+
+    Cells are joined by edges, and by corners if these are to join them, too.
 
     >>> slot = np.array([[True, False], [True, True], [True, False]])
     >>> channel(slot, FlowAxis(0, "pressure", (False, False))).sum(), slot.sum()
     (np.int64(4), np.int64(4))
     """
-    labels, count = scipy.ndimage.label(opened)
+    labels, count = scipy.ndimage.label(opened, np.ones((3, 3)) if corners else None)
     roots = _Windings(count + 1)
     for axis in (0, 1):
         if flow.joined[axis]:
-            for low, high in _seams(labels, axis):
+            for low, high in _seams(labels, axis, (-1, 0, 1) if corners else (0,)):
                 roots.join(high, low, axis)
     if flow.ends == "period":
         through = {root for root, way in roots.windings if way[flow.axis]}
@@ -79,17 +81,10 @@ def critical_constriction(gap: Floats, opened: Bools, flow: FlowAxis) -> tuple[f
 
     0 and the cell -1, -1 without a channel.
     """
-    through = channel(opened, flow)
-    if not through.any():
+    level = critical_gap(gap, opened, flow)
+    if not level:
         return 0.0, -1, -1
-    levels = np.unique(gap[through])
-    low, high = 0, levels.size  # open at the level of `low`, closed at that of `high`
-    while high - low > 1:
-        middle = (low + high) // 2
-        is_open = channel(through & (gap >= levels[middle]), flow).any()
-        low, high = (middle, high) if is_open else (low, middle)
-    level = float(levels[low])
-    wider, narrowest = through & (gap > level), np.argwhere(through & (gap == level))
+    wider, narrowest = opened & (gap > level), np.argwhere(opened & (gap == level))
     closed, opens = 0, len(narrowest)  # with so many of the narrowest cells in addition
     while opens - closed > 1:
         middle = (closed + opens) // 2
@@ -100,11 +95,47 @@ def critical_constriction(gap: Floats, opened: Bools, flow: FlowAxis) -> tuple[f
     return level, i, j
 
 
-def _seams(labels: Integers, axis: int) -> Iterable[tuple[int, int]]:
-    """Pairs of components that touch through the period, on its first and its last line."""
+def critical_gap(gap: Floats, opened: Bools, flow: FlowAxis, *, corners: bool = False) -> float:
+    """Largest gap such that cells of this gap or more are a channel; 0 without one."""
+    through = channel(opened, flow, corners=corners)
+    if not through.any():
+        return 0.0
+    levels = np.unique(gap[through])
+    low, high = 0, levels.size  # open at the level of `low`, closed at that of `high`
+    while high - low > 1:
+        middle = (low + high) // 2
+        is_open = channel(through & (gap >= levels[middle]), flow, corners=corners).any()
+        low, high = (middle, high) if is_open else (low, middle)
+    return float(levels[low])
+
+
+def critical_gap_error(gap: Floats, opened: Bools, flow: FlowAxis) -> float:
+    """Error of the critical gap by the size of the cells.
+
+    What channels through corners of cells add to it, and half of the largest change on every
+    second cell along each axis.
+    """
+    found = critical_gap(gap, opened, flow)
+    through_corners = critical_gap(gap, opened, flow, corners=True)
+    steps = [2 if count > 1 else 1 for count in gap.shape]
+    parts = [np.s_[i :: steps[0], j :: steps[1]] for i in range(steps[0]) for j in range(steps[1])]
+    coarse = [critical_gap(gap[part], opened[part], flow) for part in parts]
+    return through_corners - found + max(abs(each - found) for each in coarse) / 2
+
+
+def _seams(labels: Integers, axis: int, shifts: Iterable[int] = (0,)) -> Iterable[tuple[int, int]]:
+    """Pairs of components that touch through the period, on its first and its last line.
+
+    A shift of one cell joins those that touch by corners.
+    """
     first, last = np.take(labels, 0, axis), np.take(labels, -1, axis)
-    both = (first > 0) & (last > 0)
-    pairs = np.unique(np.stack([first[both], last[both]], axis=1), axis=0)
+    found = []
+    for shift in shifts:
+        low, high = first[max(shift, 0) :], last[max(-shift, 0) :]
+        low, high = low[: high.size], high[: low.size]
+        both = (low > 0) & (high > 0)
+        found.append(np.stack([low[both], high[both]], axis=1))
+    pairs = np.unique(np.concatenate(found), axis=0)
     return [(int(low), int(high)) for low, high in pairs.tolist()]
 
 

@@ -9,7 +9,12 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.grid import Grid
-from viscontact.results.leakage.channels import FlowAxis, channel, critical_constriction
+from viscontact.results.leakage.channels import (
+    FlowAxis,
+    channel,
+    critical_constriction,
+    critical_gap_error,
+)
 from viscontact.results.leakage.effective_medium import effective_transmissivity
 from viscontact.results.leakage.flow import (
     ChannelFlow,
@@ -54,6 +59,11 @@ class InstantLeakage:
     def critical(self) -> tuple[float, int, int]:
         """Critical gap [m], 0 if closed, and its cell."""
         return critical_constriction(self.gap, self.opened, self.flow)
+
+    @cached_property
+    def critical_error(self) -> float:
+        """Error of the critical gap; of a contact that is closed, how open it might be [m]."""
+        return critical_gap_error(self.gap, self.opened, self.flow)
 
     @property
     def percolates(self) -> bool:
@@ -132,6 +142,7 @@ class InstantLeakage:
             "transmissivity_error": self.error,
             "percolates": float(self.percolates),
             "critical_gap": critical,
+            "critical_gap_error": self.critical_error,
             "critical_x": float(self.grid.x[i]) if self.percolates else np.nan,
             "critical_y": float(self.grid.y[j]) if self.percolates else np.nan,
             "effective_gap": float(np.cbrt(12 * transmissivity)),

@@ -68,13 +68,13 @@ def leakage(  # noqa: PLR0913
         Over ``time`` or ``speed``: ``transmissivity`` T [m³], which is h³/12 between parallel
         plates and depends on the gap alone, ``leak_rate`` = T dp width/(viscosity length) [m³/s],
         both with ``_error``; ``percolates``; ``critical_gap`` [m], the gap at the narrowest place
-        of the widest channel, at ``critical_x``, ``critical_y``; ``effective_gap``
-        (12 T)^(1/3), ``mean_gap`` [m], ``contact_fraction``, ``flux_imbalance`` [-] and
-        ``transmissivity_effective_medium``, an estimate from the distribution of gaps alone. A
-        contact without any channel has T, leak rate and critical gap 0. ``closing_force`` [N] is
-        the force at which the flow first stops, with half the step of the stored instants as its
-        error, NaN if it does not. Attributes: ``changes``, a sentence for each closing and
-        opening, and ``warnings``.
+        of the widest channel, at ``critical_x``, ``critical_y``, with ``critical_gap_error``;
+        ``effective_gap`` (12 T)^(1/3), ``mean_gap`` [m], ``contact_fraction``, ``flux_imbalance``
+        [-] and ``transmissivity_effective_medium``, an estimate from the distribution of gaps
+        alone. A contact without any channel has T, leak rate and critical gap 0, and as the error
+        of this gap how open it might be. ``closing_force`` [N] is the force at which the flow first
+        stops, with half the step of the stored instants as its error, NaN if it does not.
+        Attributes: ``changes``, a sentence for each closing and opening, and ``warnings``.
 
     Raises
     ------

@@ -63,7 +63,7 @@ def _stated(ds: xr.Dataset) -> xr.Dataset | None:
     places, axis = ds[str(ds["pressure"].dims[0])].values, run_axis(ds)
     if not places.size:
         return None
-    row = ds[[*OF_LEAKAGE, "leak_rate_error"]].isel(
+    row = ds[[*OF_LEAKAGE, "leak_rate_error", "critical_gap_error"]].isel(
         {axis.name: [int(np.abs(axis.values(ds) - places[-1]).argmin())]}
     )
     gap = np.cbrt(12 * row["transmissivity"])
@@ -79,10 +79,19 @@ def gaps_in_words(ds: xr.Dataset) -> list[str]:
 def _in_words(row: xr.Dataset) -> str:
     if not float(row["percolates"][-1]):
         return "closed, no channel leads through"
-    gaps = [format_quantity(float(row[n][-1]), "m", 3) for n in ("critical_gap", "effective_gap")]
-    text = f"critical gap {gaps[0]}, effective gap {gaps[1]}"
+    critical, effective = (float(row[name][-1]) for name in ("critical_gap", "effective_gap"))
+    text = (
+        f"critical gap {format_quantity(critical, 'm', 3)} "
+        f"(error {_relative(critical, float(row['critical_gap_error'][-1]))}), "
+        f"effective gap {format_quantity(effective, 'm', 3)}"
+    )
     rate, error = float(row["leak_rate"][-1]), float(row["leak_rate_error"][-1])
     if not np.isfinite(rate):
         return text
-    spread = f"{100 * error / rate:.2g} %" if error < rate else f"a factor {1 + error / rate:.2g}"
-    return f"{text}, leak rate {format_quantity(rate, 'm3 s-1', 3)} (error {spread})"
+    stated = f"leak rate {format_quantity(rate, 'm3 s-1', 3)} (error {_relative(rate, error)})"
+    return f"{text}, {stated}"
+
+
+def _relative(value: float, error: float) -> str:
+    """Error over a value in words."""
+    return f"{100 * error / value:.2g} %" if error < value else f"a factor {1 + error / value:.2g}"

@@ -59,6 +59,7 @@ class CaseLeakage:
             "leak_rate": float(fluid.rate(transmissivity, *extents)),
             "leak_rate_error": float(fluid.rate(error, *extents)),
             "critical_gap": found.critical[0],
+            "critical_gap_error": found.critical_error,
         }
 
 

@@ -11,6 +11,7 @@ VARIABLES = {
     "leak_rate_error": Variable("m3 s-1", "error of the leak rate"),
     "percolates": Variable("1", "1 if a channel leads through, 0 if the contact is closed"),
     "critical_gap": Variable("m", "gap at the narrowest place of the widest channel"),
+    "critical_gap_error": Variable("m", "error of the critical gap, by the size of the cells"),
     "critical_x": Variable("m", "position of the critical constriction along x"),
     "critical_y": Variable("m", "position of the critical constriction along y"),
     "effective_gap": Variable("m", "gap of parallel plates of the same transmissivity"),
