@@ -157,16 +157,34 @@ def test_scalars_are_those_of_the_stored_instants(tmp_path: Path) -> None:
         assert "leak_rate" not in shown_scalars(undriven, Place.FACTS)
 
 
-def test_flow_along_both_axes_has_no_single_scalar(tmp_path: Path) -> None:
+def test_flow_along_both_axes_has_the_scalars_of_both(tmp_path: Path) -> None:
     case = read_case(written(tmp_path))
-    assert "leak_rate" not in result_of(case)
-    with pytest.raises(ValueError, match="leak_rate: needs a section 'leakage'"):
-        require_fluid(case, ["force", "leak_rate"])
+    found = result_of(case)
+    both = vc.leakage(found, viscosity=1e-3, pressure_difference=1e5, along="both")
+    for name in ("transmissivity", "leak_rate", "critical_gap"):
+        for own, axis in ((name, "x"), (f"{name}_y", "y")):
+            wanted = both.sel(direction=axis)
+            np.testing.assert_allclose(found[own], wanted[name], rtol=1e-7)
+            rounding = 1e-9 * float(both[name].max())
+            errors = found[f"{own}_error"], wanted[f"{name}_error"]
+            np.testing.assert_allclose(*errors, atol=rounding)
+    assert float(found.leak_rate[-1]) > 0 == float(found.leak_rate_y[-1])
+    require_fluid(case, ["force", "leak_rate", "leak_rate_y"])
+
+
+def test_scalars_that_a_fluid_does_not_have_are_refused(tmp_path: Path) -> None:
     one = read_case(written(tmp_path, leakage={"viscosity": "1 mPa s"}))
-    assert result_of(one).transmissivity.values[0] > 0
+    found = result_of(one)
+    assert found.transmissivity.values[0] > 0
+    assert "transmissivity_y" not in found
     with pytest.raises(ValueError, match="pressure_difference"):
         require_fluid(one, ["leak_rate"])
+    with pytest.raises(ValueError, match=r"critical_gap_y: needs 'along: both' .* critical_gap$"):
+        require_fluid(one, ["critical_gap_y"])
     require_fluid(one, ["critical_gap"])
+    none = read_case(written(tmp_path, leakage=None))
+    with pytest.raises(ValueError, match="leak_rate: needs a section 'leakage'"):
+        require_fluid(none, ["leak_rate"])
 
 
 def test_killed_run_is_resumed_to_the_bit(folder: Path) -> None:

@@ -42,6 +42,10 @@ FRICTION = "friction"
 
 #: Part of a state of a run whose case names a fluid that leaks.
 LEAKAGE = "leakage"
+
+#: Part of one whose fluid leaks along both axes: what leaks along y.
+LEAKAGE_Y = "leakage along y"
+
 #: Parts of a state that only contacts of bodies that adhere have, and those on a stage.
 ADHESION, STAGE = "adhesion", "stage"
 
@@ -192,9 +196,14 @@ class ContactState:
     transmissivity, leak_rate, critical_gap : float or None
         Of a fluid through the gap, as of `leakage`: h³/12 between parallel plates [m³], volume over
         time [m³/s], and gap at the narrowest place of the widest channel [m]; NaN at instants
-        whose fields are not kept. None without a fluid in the case.
+        whose fields are not kept. Along x if the fluid leaks along both axes. None without a fluid
+        in the case.
     transmissivity_error, leak_rate_error, critical_gap_error : float or None
         Their errors.
+    transmissivity_y, transmissivity_y_error, leak_rate_y, leak_rate_y_error : float or None
+        The same along y, of a fluid that leaks along both axes; None of another one.
+    critical_gap_y, critical_gap_y_error : float or None
+        Likewise.
 
     least_pressure : float or None
         Least pressure, negative in tension [Pa]; None, like the next three, without adhesion.
@@ -284,6 +293,12 @@ class ContactState:
     leak_rate_error: float | None = None
     critical_gap: float | None = None
     critical_gap_error: float | None = None
+    transmissivity_y: float | None = None
+    transmissivity_y_error: float | None = None
+    leak_rate_y: float | None = None
+    leak_rate_y_error: float | None = None
+    critical_gap_y: float | None = None
+    critical_gap_y_error: float | None = None
     least_pressure: float | None = None
     tensile_area: float | None = None
     adhesion_energy: float | None = None
@@ -306,10 +321,11 @@ class ContactState:
         moving = {MOTION} if self.moving or self.speed is not None else set()
         gripping = set() if self.traction_x is None else {FRICTION}
         leaking = set() if self.leak_rate is None else {LEAKAGE}
+        across = set() if self.leak_rate_y is None else {LEAKAGE_Y}
         adhering = set() if self.least_pressure is None else {ADHESION}
         staged = set() if self.stage_position is None else {STAGE}
         clocked = {name for name in OF_CLOCKS if getattr(self, name) is not None}
-        return frozenset(moving | gripping | leaking | adhering | staged | clocked)
+        return frozenset(moving | gripping | leaking | across | adhering | staged | clocked)
 
     @property
     def field_names(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscontact.results.recorded_case import across_period, recorded_grid
-from viscontact.results.variables import OF_LEAKAGE, SCALARS, Place, shown_in
+from viscontact.results.variables import OF_LEAKAGE, OF_LEAKAGE_Y, SCALARS, Place, shown_in
 
 if TYPE_CHECKING:
     from viscontact.results.stored_result import Result
@@ -36,7 +36,9 @@ def is_shown(ds: Result, name: str) -> bool:
     """Test for a scalar that a result has and that is of use for it."""
     if name not in ds or (name in WITH_DATUM and lacks_datum(ds)):
         return False
-    if name in OF_LEAKAGE and np.isnan(ds[name].values).all():  # no fluid that is driven
+    if (
+        name in (*OF_LEAKAGE, *OF_LEAKAGE_Y) and np.isnan(ds[name].values).all()
+    ):  # no fluid that is driven
         return False
     return name not in OF_LONG_CONTACTS or is_long(ds)
 

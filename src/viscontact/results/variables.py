@@ -9,13 +9,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Flag, auto
 from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import ADHESION, FRICTION, LEAKAGE, MOTION, STAGE, Outcome
+from viscontact.mechanics.state import (
+    ADHESION,
+    FRICTION,
+    LEAKAGE,
+    LEAKAGE_Y,
+    MOTION,
+    STAGE,
+    Outcome,
+)
 
 
 class Place(Flag):
@@ -154,6 +162,33 @@ def _leak(
     return Variable(units, long_name, label=label, places=places, rank=rank, of=LEAKAGE)
 
 
+def _leaks_along_y() -> dict[str, Variable]:
+    """Scalars of a flow along y, of a fluid that leaks along both axes."""
+    shown = Place.KEY | Place.CARD | Place.FACTS
+    found = {
+        "transmissivity_y": Variable(
+            "m3", "transmissivity along y", label="Transmissivity along y", rank=43
+        ),
+        "leak_rate_y": Variable(
+            *("m3 s-1", "volume of fluid that leaks along y in a unit of time"),
+            label="Leak rate along y",
+            places=shown,
+            rank=44,
+        ),
+        "critical_gap_y": Variable(
+            *("m", "gap at the narrowest place of the widest channel along y"),
+            label="Critical gap along y",
+            places=shown,
+            rank=45,
+        ),
+    }
+    errors = {
+        f"{name}_error": Variable(each.units, f"error of the {each.label.lower()}")
+        for name, each in found.items()
+    }
+    return {name: replace(each, of=LEAKAGE_Y) for name, each in (found | errors).items()}
+
+
 #: Places of the scalars of bodies that adhere.
 _ADHERING = Place.CARD | Place.RESPONSE
 
@@ -290,6 +325,7 @@ SCALARS = {
         Place.KEY | Place.CARD | Place.FACTS,
     ),
     "critical_gap_error": _leak("m", "error of the critical gap"),
+    **_leaks_along_y(),
     "temperature": Variable(
         "K",
         "temperature of the bodies",
@@ -354,6 +390,9 @@ SCALARS = {
 
 #: Scalars of the flow through the gap, of runs whose case names a fluid.
 OF_LEAKAGE = tuple(name for name, each in SCALARS.items() if each.of == LEAKAGE and each.label)
+
+#: Those along y, of a fluid that leaks along both axes.
+OF_LEAKAGE_Y = tuple(f"{name}_y" for name in OF_LEAKAGE)
 
 #: Scalars that add up over time, belong to steps in time, or are the origin of coordinates.
 NOT_STEADY = (

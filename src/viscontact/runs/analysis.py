@@ -140,17 +140,13 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
         return self.fields.axis(over) == over or getattr(state, over) in self._kept
 
     @property
-    def _scalar_leakage(self) -> CaseLeakage | None:
-        return self.leakage if self.leakage is not None and self.leakage.is_scalar else None
-
-    @property
     def parts(self) -> frozenset[str]:
         """Parts of its states that only some runs have."""
-        return self.contact.parts | ({LEAKAGE} if self._scalar_leakage else set())
+        return self.contact.parts | (self.leakage.parts if self.leakage else frozenset())
 
     def leaking(self, state: ContactState) -> ContactState:
         """Return a state of the loop, with what leaks if the case names a fluid."""
-        fluid = self._scalar_leakage
+        fluid = self.leakage
         if fluid is None:
             return state
         # As it is stored, so that a leakage of the result finds the same.
@@ -160,14 +156,14 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     @property
     def leakage_memory(self) -> float:
         """Memory of the flow through the gap [bytes]."""
-        return 0.0 if self._scalar_leakage is None else leakage_memory(self._cells)
+        return 0.0 if self.leakage is None else leakage_memory(self._cells)
 
     @property
     def leakage_seconds(self) -> float:
         """Predicted time of the flow at all instants whose fields are kept [s]."""
-        if self._scalar_leakage is None:
+        if self.leakage is None:
             return 0.0
-        return len(self._kept) * leakage_seconds(self._cells)
+        return len(self._kept) * self.leakage.directions * leakage_seconds(self._cells)
 
     @property
     def _cells(self) -> int:

@@ -17,7 +17,13 @@ from viscontact.case import Case
 from viscontact.results.run_axis import RUN_AXES, SPEED, TIME, RunAxis
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.sweep_axes import over_of
-from viscontact.results.variables import OF_LEAKAGE, SCALARS, error_name, scalars_with_error
+from viscontact.results.variables import (
+    OF_LEAKAGE,
+    OF_LEAKAGE_Y,
+    SCALARS,
+    error_name,
+    scalars_with_error,
+)
 
 #: Place of a scalar: that of its worst value, the last one, or a time [s] or a speed [m/s].
 At = Literal["worst", "end"] | float
@@ -102,7 +108,7 @@ def value_columns(
 
 def known_scalar(argument: str, name: str) -> str:
     """Name of a scalar with an error bar; ValueError for another one, with the argument."""
-    names = [*scalars_with_error(), *OF_LEAKAGE]
+    names = [*scalars_with_error(), *OF_LEAKAGE, *OF_LEAKAGE_Y]
     if name in names:
         return name
     close = difflib.get_close_matches(name, names, 1)
@@ -112,17 +118,24 @@ def known_scalar(argument: str, name: str) -> str:
 
 def require_fluid(case: Case, scalars: Iterable[str]) -> None:
     """Raise ValueError for a scalar of the leakage that the case does not state."""
-    needed = [name for name in scalars if name in OF_LEAKAGE]
+    needed = [name for name in scalars if name in (*OF_LEAKAGE, *OF_LEAKAGE_Y)]
     if not needed:
         return
     settings = case.leakage
-    if not settings or settings.get("along") == "both":
+    if not settings:
         raise ValueError(
             f"{needed[0]}: needs a section 'leakage' in the case, with the viscosity of the fluid "
-            "and one direction of its flow ('along: x')"
+            "and the direction of its flow ('along: x', 'y' or 'both')"
         )
-    if "leak_rate" in needed and "pressure_difference" not in settings:
-        raise ValueError("leak_rate: needs a pressure_difference in the section 'leakage'")
+    across = [name for name in needed if name in OF_LEAKAGE_Y]
+    if across and settings.get("along") != "both":
+        raise ValueError(
+            f"{across[0]}: needs 'along: both' in the section 'leakage'; of a flow along one axis "
+            f"it is {across[0].removesuffix('_y')}"
+        )
+    driven = [name for name in needed if name.startswith("leak_rate")]
+    if driven and "pressure_difference" not in settings:
+        raise ValueError(f"{driven[0]}: needs a pressure_difference in the section 'leakage'")
 
 
 def places_of(case: Case) -> tuple[RunAxis, Floats]:

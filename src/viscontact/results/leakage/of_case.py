@@ -11,7 +11,7 @@ import xarray as xr
 from viscontact.mechanics.state import LEAKAGE
 from viscontact.results.leakage.leakage import leakage
 from viscontact.results.run_axis import run_axis
-from viscontact.results.variables import OF_LEAKAGE
+from viscontact.results.variables import OF_LEAKAGE, OF_LEAKAGE_Y, error_name
 from viscontact.units.formatting import format_quantity
 
 
@@ -63,9 +63,13 @@ def _stated(ds: xr.Dataset) -> xr.Dataset | None:
     places, axis = ds[str(ds["pressure"].dims[0])].values, run_axis(ds)
     if not places.size:
         return None
-    row = ds[[*OF_LEAKAGE, "leak_rate_error", "critical_gap_error"]].isel(
-        {axis.name: [int(np.abs(axis.values(ds) - places[-1]).argmin())]}
-    )
+    last = ds.isel({axis.name: [int(np.abs(axis.values(ds) - places[-1]).argmin())]})
+    names = [*OF_LEAKAGE, *map(error_name, OF_LEAKAGE)]
+    row = last[names]
+    if "transmissivity_y" in ds:
+        along_y = [*OF_LEAKAGE_Y, *map(error_name, OF_LEAKAGE_Y)]
+        across = last[along_y].rename(dict(zip(along_y, names, strict=True)))
+        row = xr.concat([row, across], xr.Variable("direction", ["x", "y"]))
     gap = np.cbrt(12 * row["transmissivity"])
     known = bool(np.isfinite(row["transmissivity"]).all())
     return row.assign(effective_gap=gap, percolates=gap > 0) if known else None

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import LEAKAGE, LEAKAGE_Y, ContactState
 from viscontact.results.leakage.fluid import flow_axis, fluid_of
 from viscontact.results.leakage.instant import MEMORY, MOST_UNKNOWNS, InstantLeakage
-from viscontact.results.variables import OF_LEAKAGE, SCALARS, error_name
+from viscontact.results.variables import OF_LEAKAGE, error_name
 
-_ERRORS = tuple(name for name in map(error_name, OF_LEAKAGE) if name in SCALARS)
+#: Scalars of a flow, and their errors.
+_SCALARS = (*OF_LEAKAGE, *map(error_name, OF_LEAKAGE))
 
 #: Time of both solutions for each cell [s].
 _SECONDS = 1.5e-5
@@ -22,31 +23,53 @@ _SECONDS = 1.5e-5
 
 @dataclass(frozen=True)
 class CaseLeakage:
-    """Fluid of a case, which leaks along one axis at the instants whose fields are kept."""
+    """Fluid of a case, which leaks at the instants whose fields are kept."""
 
     settings: Mapping[str, Any]  # arguments of `leakage`
     tolerance: float  # of the contact
 
     @property
-    def is_scalar(self) -> bool:
-        """True for a flow along one axis; one along both has no single leak rate."""
-        return bool(self.settings.get("along", "x") != "both")
+    def parts(self) -> frozenset[str]:
+        """Parts of the scalars of a state."""
+        return frozenset({LEAKAGE, LEAKAGE_Y} if self._along == "both" else {LEAKAGE})
+
+    @property
+    def directions(self) -> int:
+        """Number of flows."""
+        return len(self.parts)
 
     @property
     def unknown(self) -> dict[str, Any]:
         """Scalars of a state whose fields are not kept, or of which none can be found."""
-        return dict.fromkeys((*OF_LEAKAGE, *_ERRORS), np.nan)
+        named = [self._named(name, axis) for axis in self._axes for name in _SCALARS]
+        return dict.fromkeys(named, np.nan)
+
+    @property
+    def _along(self) -> str:
+        return str(self.settings.get("along", "x"))
+
+    @property
+    def _axes(self) -> str:
+        return "xy" if self._along == "both" else self._along
+
+    def _named(self, name: str, axis: str) -> str:
+        """Name of a scalar of the flow along an axis."""
+        if self._along != "both" or axis == "x":
+            return name
+        of = name.removesuffix("_error")
+        return f"{of}_y{name.removeprefix(of)}"
 
     def values(self, state: ContactState) -> dict[str, Any]:
         """Scalars of a state with its fields."""
         found = self.unknown
         with suppress(ValueError):  # the sentences below the table of the run give the reason
-            found |= self._values(state)
+            for axis in self._axes:
+                values = self._values(state, axis)
+                found |= {self._named(name, axis): value for name, value in values.items()}
         return found
 
-    def _values(self, state: ContactState) -> dict[str, float]:
-        along = self.settings.get("along", "x")
-        flow = flow_axis(along, self.settings.get("ends"), state.grid)
+    def _values(self, state: ContactState, axis: str) -> dict[str, float]:
+        flow = flow_axis(axis, self.settings.get("ends"), state.grid)
         gap = np.asarray(state.gap, dtype=np.float64)
         if np.isnan(gap).any():
             raise ValueError("leakage: the gap is not known on the whole grid")
