@@ -7,6 +7,7 @@ from pathlib import Path
 from statistics import median
 
 from viscontact.verify import (
+    coupled_friction,
     creeping_friction,
     edges,
     elastic,
@@ -31,6 +32,7 @@ _GROUPS = {
     "contacts of constant or known area": fixed_contact,
     "friction between elastic bodies": friction,
     "friction on creeping bodies": creeping_friction,
+    "friction of dissimilar bodies": coupled_friction,
     "temperatures that vary, and ageing": temperature,
     "layers on a rigid base": layers,
     "periodic wavy surfaces": periodic,

@@ -41,6 +41,11 @@ ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.0, 2.0
 #: half of the grid; of a quarter of it with both symmetries.
 ARRAYS_OF_SLIP_SEARCH = 31.0
 
+#: Further arrays of the whole grid where pressure and tractions are coupled, measured: spectra of
+#: the kernels and of three fields on four times the cells, and fields of the alternation. Each term
+#: of the law adds one of the pressure.
+ARRAYS_OF_COUPLING = 51.0
+
 #: Arrays of the computed cells with adhesion: attraction and its slope, gap, and about ten vectors
 #: each of the basis and the directions of GMRES.
 ARRAYS_OF_ADHESION = 30.0
@@ -71,6 +76,8 @@ def run_memory(run: RunSetup) -> float:
         kept_there = sum(plan.fields_kept for plan in run.shear_plans)
         whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there
         whole += ARRAYS_OF_SLIP_SEARCH / (1 if symmetry_of(run) is None else 4)
+        if run.problem.is_coupled:
+            whole += ARRAYS_OF_COUPLING + kept_there
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from viscontact.verify import (
+    coupled_friction,
     creeping_friction,
     edges,
     elastic,
@@ -32,6 +33,7 @@ CASES: tuple[Case, ...] = (
     *fixed_contact.CASES,
     *friction.CASES,
     *creeping_friction.CASES,
+    *coupled_friction.CASES,
     *temperature.CASES,
     *layers.CASES,
     *periodic.CASES,

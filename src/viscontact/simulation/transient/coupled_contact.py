@@ -44,8 +44,8 @@ from viscontact.simulation.transient.frictional_contact import (
 )
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
-from viscontact.simulation.transient.slip_state import StepSlip
-from viscontact.simulation.transient.slip_step import SlipGuess
+from viscontact.simulation.transient.slip_state import StepSlip, step_slip
+from viscontact.simulation.transient.slip_step import SlipGuess, solved_on
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Alternations of one step.
@@ -160,7 +160,9 @@ class CoupledContact(FrictionalContact):
         later = response.of_pressure(contact.pressure)
         moved = self._on(region).along((later - response.before)[region.cut])
         known = replace(known, past=known.past + moved)
-        return self._solved(known, region, start, tolerance)
+        found = solved_on(self._run, self._domain, region, known, start, tolerance)
+        slip = step_slip(found, known.constraints, self._domain, region, known.carried)
+        return replace(slip, way=self._domain.spread(region, found.way))
 
     def _on(self, region: Region) -> CouplingFilter:
         """Operator on a region."""

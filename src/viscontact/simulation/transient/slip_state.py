@@ -31,7 +31,7 @@ class StepSlip:
     duality_gap: float = 0.0  # [-]
     residual: float = 0.0  # of the friction law [-]
     displacement: float = 0.0  # largest one of the step [m]
-    way: Floats | None = None  # slip as if cells were free, open ones too [m], (2, nx, ny)
+    way: Floats | None = None  # slip of all cells, open ones as well, if kept [m], (2, nx, ny)
 
     @classmethod
     def apart(cls, shape: tuple[int, int], constraints: ShiftConstraints) -> StepSlip:
@@ -67,7 +67,6 @@ def step_slip(
         found.duality_gap,
         found.residual,
         found.displacement,
-        domain.spread(region, found.way),
     )
 
 

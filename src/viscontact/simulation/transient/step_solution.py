@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.state import Outcome
@@ -38,6 +36,6 @@ class StepSolution:
     @property
     def contact(self) -> NormalContact:
         """Normal contact that tractions act in."""
-        largest = float(np.abs(self.displacement).max())
+        largest = max(float(self.displacement.max()), -float(self.displacement.min()))
         force = float(self.resultants[0])
         return NormalContact(self.pressure, self.gap, self.in_contact, force, largest)
