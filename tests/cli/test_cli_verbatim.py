@@ -117,7 +117,7 @@ COMMANDS: tuple[tuple[list[str], int], ...] = (
     (["show", f"{NAME}-"], 2),
     (["plot", NAME, "history"], 0),
     (["plot", f"{NAME}s", "response"], 0),
-    (["export", NAME, "-o", f"{NAME}.html"], 0),
+    (["export", NAME, "-o", f"{NAME}.html"], 2),
     (["collect", f"{NAME}s", "-o", f"{NAME}.nc"], 0),
     (["material", f"{NAME}.csv", *OPTIONS], 0),
     (["material", NAME], 2),

@@ -50,7 +50,7 @@ COMPUTES = ("simulation", "accuracy", "steady_motion", "runs")
 OTHERS = {
     "numpy": "backend", "scipy": "backend", "lazy_loader": "backend", "ducc0": "backend",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
-    "python_calamine": "tables",
+    "python_calamine": "tables", "pyevtk": "results",
     "psutil": "backend", "threadpoolctl": "backend",
     "pydantic": "case", "pydantic_core": "case", "ruamel": "bodies",
     "SurfaceTopography": "bodies", "afmformats": "identification",

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.quick_imports import quick_imports
-from viscontact.cli.terminal.messages import put, refuse
+from viscontact.cli.terminal.messages import put
 
 RunDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
@@ -36,7 +36,10 @@ def export(
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o", "--output", metavar="FILE.csv", help="CSV or XLSX file; CSV on stdout by default."
+            *("-o", "--output"),
+            metavar="FILE.csv",
+            help="History as .csv or .xlsx, by default CSV on stdout; stored fields as .pvd "
+            "(ParaView) or .mat (MATLAB, with the history).",
         ),
     ] = None,
     point: Annotated[
@@ -48,14 +51,13 @@ def export(
         ),
     ] = None,
 ) -> None:
-    """Write the history of a run as CSV or XLSX, in SI units."""
-    from viscontact.cli.results.history_file import write_table
+    """Write a run for other programs, in SI units: the history as CSV or XLSX, or the fields."""
+    from viscontact.cli.results.exports import check_export, write_export
     from viscontact.cli.results.stored import checked_result
 
-    if output is not None and output.suffix.lower() in (".nc", ".xls", ".ods"):
-        refuse(f"{output}: name a CSV or an XLSX file, e.g. -o history.csv or -o history.xlsx")
+    check_export(output, point or ())
     with checked_result(directory) as ds:
-        write_table(ds, output, point or ())
+        write_export(ds, output, point or ())
 
 
 def report(
