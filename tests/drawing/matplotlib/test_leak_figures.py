@@ -70,7 +70,7 @@ def test_panels_show_rate_error_and_the_instant_of_closing() -> None:
 def test_rate_over_force_and_over_area_has_the_values_over_time() -> None:
     leak = vc.leakage(synthetic_results.ellipse(), viscosity=1.0, along="y")
     leak = leak.assign(force=("time", np.arange(1.0, leak.sizes["time"] + 1)))
-    for over, name in (("force", "force"), ("area", "contact_fraction")):
+    for over, name in (("force", "force"), ("area", "area_fraction")):
         rate, gaps = leak_panels(leak, "y", over)
         np.testing.assert_array_equal(rate.curves[0].x, leak[name])
         np.testing.assert_allclose(rate.curves[0].y, leak.transmissivity)

@@ -106,7 +106,7 @@ def _print(found: xr.Dataset) -> None:
 
 
 def _cells(row: xr.Dataset, factor: float) -> list[str]:
-    fraction = f"{100 * float(row.contact_fraction):.3g} %"
+    fraction = f"{100 * float(row.area_fraction):.3g} %"
     if not float(row.percolates):
         return [fraction, "closed", "", "0", *(["0", ""] if factor else [])]
     critical, effective = (
@@ -122,7 +122,7 @@ def _cells(row: xr.Dataset, factor: float) -> list[str]:
 
 def _spread(value: float, error: float) -> str:
     """Error over a value; a factor near closing, where only the order is known."""
-    return f"{100 * error / value:.2g} %" if error < value else f"factor {1 + error / value:.2g}"
+    return f"{100 * error / value:.2g} %" if error < value else f"× {1 + error / value:.2g}"
 
 
 def _rate_unit(rates: Floats) -> tuple[str, float]:

@@ -130,17 +130,15 @@ def leak_panels(leak: xr.Dataset, along: str, over: str = "time") -> tuple[Panel
         marks=marks,
         name="leak-rate",
     )
-    gaps = {
-        "critical gap": one["critical_gap"].values,
-        "effective gap": one["effective_gap"].values,
-    }
-    gaps["mean gap"] = one["mean_gap"].values
-    curves = tuple(
-        Curve(places, np.where(each > 0, each, np.nan), label, Ink(place=k), "joined", symbol=k)
-        for k, (label, each) in enumerate(gaps.items())
-    )
+    curves = []
+    for k, label in enumerate(("critical gap", "effective gap", "mean gap")):
+        gap = one[label.replace(" ", "_")].values
+        shown, ink, error = np.where(gap > 0, gap, np.nan), Ink(place=k), None
+        if label == "critical gap":
+            error = np.minimum(one["critical_gap_error"].values, 0.9 * gap)
+        curves.append(Curve(places, shown, label, ink, "joined", symbol=k, error=error))
     every = np.concatenate([curve.y for curve in curves])
-    second = Panel(x, _decades("Gap", "m", every), curves, marks=marks, name="critical-gap")
+    second = Panel(x, _decades("Gap", "m", every), tuple(curves), marks=marks, name="critical-gap")
     return first, second
 
 
@@ -152,7 +150,7 @@ def _places(leak: xr.Dataset, over: str) -> tuple[Floats, Axis]:
     if over == "force":
         return leak["force"].values, Axis.of("Force", "N", leak["force"].values)
     if over == "area":
-        return leak["contact_fraction"].values, Axis("Real over nominal area", PERCENT)
+        return leak["area_fraction"].values, Axis("Real over nominal area", PERCENT)
     raise ValueError(f"leak-rate: over must be 'time', 'force' or 'area', got {over!r}")
 
 

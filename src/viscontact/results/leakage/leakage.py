@@ -11,7 +11,12 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.leakage.channels import Ends, FlowAxis
-from viscontact.results.leakage.closing import changes, closing_force, scalar_at_fields
+from viscontact.results.leakage.closing import (
+    changes,
+    closing_force,
+    contact_shares,
+    scalar_at_fields,
+)
 from viscontact.results.leakage.fluid import Fluid, flow_axis, fluid_of
 from viscontact.results.leakage.instant import InstantLeakage
 from viscontact.results.leakage.variables import VARIABLES
@@ -69,7 +74,8 @@ def leakage(  # noqa: PLR0913
         plates and depends on the gap alone, ``leak_rate`` = T dp width/(viscosity length) [m³/s],
         both with ``_error``; ``percolates``; ``critical_gap`` [m], the gap at the narrowest place
         of the widest channel, at ``critical_x``, ``critical_y``, with ``critical_gap_error``;
-        ``effective_gap`` (12 T)^(1/3), ``mean_gap`` [m], ``contact_fraction``, ``flux_imbalance``
+        ``effective_gap`` (12 T)^(1/3), ``mean_gap`` [m], ``contact_fraction``, the share of
+        cells in contact, ``area_fraction``, the real over the nominal area [-], ``flux_imbalance``
         [-] and ``transmissivity_effective_medium``, an estimate from the distribution of gaps
         alone. A contact without any channel has T, leak rate and critical gap 0, and as the error
         of this gap how open it might be. ``closing_force`` [N] is the force at which the flow first
@@ -122,7 +128,8 @@ def leakage(  # noqa: PLR0913
     name = run_axis(ds).name
     found = found.assign_coords({name: (name, places, ds[ds["pressure"].dims[0]].attrs)})
     found = found.assign(force=(name, scalar_at_fields(ds, "force"), SCALARS["force"].attributes))
-    found = found.assign(_closing(found))
+    area = (name, contact_shares(ds), VARIABLES["area_fraction"].attributes)
+    found = found.assign(area_fraction=area).assign(_closing(found))
     notes = leakage_warnings(found, ds, instants, fluid)
     described = {"viscosity": viscosity, "ends": [each.ends for each in flows], "along": along}
     said = {"warnings": "\n".join(notes), "changes": "\n".join(changes(found))}

@@ -17,6 +17,7 @@ VARIABLES = {
     "effective_gap": Variable("m", "gap of parallel plates of the same transmissivity"),
     "mean_gap": Variable("m", "mean gap"),
     "contact_fraction": Variable("1", "share of cells in contact"),
+    "area_fraction": Variable("1", "real over nominal contact area"),
     "transmissivity_effective_medium": Variable("m3", "transmissivity of an effective medium"),
     "flux_imbalance": Variable("1", "largest relative difference of the flow through two sections"),
     "closing_force": Variable("N", "force at which the flow first stops"),
