@@ -231,6 +231,13 @@ REFUSED: dict[str, tuple[Any, dict[str, Any], str]] = {
     "late": (np.stack([MAP, MAP]), {"grid": GRID, "times": [1.0, 2.0]}, "increase from 0"),
     "no function": (lambda x: x, {"grid": GRID}, "must take .x, y."),
     "part": (lambda x, y: np.ones(3), {"grid": GRID}, "a value for each"),
+    "one number": (lambda x, y: math.sqrt(x) + y, {"grid": GRID}, "with NumPy's functions"),
+    "a condition": (lambda x, y: 1.0 if x > y else 0.0, {"grid": GRID}, "with NumPy's functions"),
+    "a grid": (
+        lambda x, y: disc(x[:, 0][:, None], y[0][None, :]),
+        {"grid": GRID},
+        "arrays x and y of any shape",
+    ),
     "infinite": (lambda x, y: 1 / (0 * x + 0 * y), {"grid": GRID}, "must be finite"),
     "text": ("nowhere.nc", {"grid": GRID}, "nowhere"),
     "a result without fields": (xr.Dataset(), {"grid": GRID}, "no stored pressure"),

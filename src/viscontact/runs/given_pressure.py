@@ -129,7 +129,7 @@ class PressureFormula(GivenPressure):
             given = self.function(x, y, time) if self.timed else self.function(x, y)
             value = real_array("pressure(x, y)", given, "Pa")
             whole = np.broadcast_to(value, wanted)
-        except (ValueError, IndexError) as error:
+        except (ValueError, TypeError, IndexError) as error:
             raise ValueError(
                 f"pressure(x, y) must give a value for each point of arrays x and y of any shape, "
                 f"as here {x.shape} and {y.shape}: {error}; compute with NumPy's functions, value "

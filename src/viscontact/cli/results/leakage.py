@@ -32,6 +32,9 @@ _DIMENSIONS = {
     "gas": "pressure",
 }
 
+#: Quantities of fluids, in place of those of solids.
+_EXAMPLES = {"viscosity": "1 mPa s", "pressure": "1 bar"}
+
 
 def print_leakage(directory: Path, texts: Mapping[str, str | None], output: Path | None) -> None:
     """Print the leakage of a run, with the settings of its case, and write the named file."""
@@ -59,8 +62,9 @@ def _quantity(name: str, text: str) -> float:
     try:
         return parse_quantity(text, _DIMENSIONS[name])
     except ValueError as error:
-        example = DIMENSIONS["viscosity"].example  # of a solid
-        refuse(f"{_option(name)}: {str(error).replace(example, '1 mPa s')}")
+        dimension = _DIMENSIONS[name]
+        example = _EXAMPLES.get(dimension, DIMENSIONS[dimension].example)
+        refuse(f"{_option(name)}: {str(error).replace(DIMENSIONS[dimension].example, example)}")
 
 
 def _option(name: str) -> str:
