@@ -26,6 +26,9 @@ LONG = (
     *("cylinder from rest", "reciprocating wave", "under a ramp", "force triangle"),
     *("force, CreepSeries", "force, RelaxationSeries", "force, Maxwell", "force, Burgers"),
     *("slow steady", "fast steady motion, V", "moving wave in full contact"),
+    *("Tabor number 0.1", "Tabor number 0.5", "Tabor number 0.7", "Tabor number 1"),
+    *("that adheres, shortest range", "that adheres, long range", "that adheres, on a stage"),
+    *("cylinder that adheres", "waves that adhere", "punch that adheres", "receding edge"),
 )
 
 BALL = CASES[0]

@@ -29,6 +29,14 @@ from viscontact.reference.layer import LayerContact, layer_punch, layer_sphere
 from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
 from viscontact.reference.lee_radok_contact import LeeRadokContact
 from viscontact.reference.line import LineContact, hertz_line
+from viscontact.reference.line_adhesion import (
+    AdhesiveLine,
+    AdhesiveLineState,
+    adhesive_line,
+    adhesive_punch,
+    adhesive_wave_pressure,
+    edge_energy,
+)
 from viscontact.reference.profiles import ConeProfile, PunchProfile, SphereProfile
 from viscontact.reference.punch import ConeContact, FlatPunchContact, cone, flat_punch
 from viscontact.reference.punch_history import (
@@ -60,6 +68,8 @@ from viscontact.reference.ting_triangle import TingTriangle, ting_triangle
 from viscontact.reference.wavy import WavyContact, full_contact_pressure, westergaard
 
 __all__ = [
+    "AdhesiveLine",
+    "AdhesiveLineState",
     "AdhesiveSphere",
     "AdhesiveState",
     "AxisymmetricContact",
@@ -82,10 +92,14 @@ __all__ = [
     "TingHump",
     "TingTriangle",
     "WavyContact",
+    "adhesive_line",
+    "adhesive_punch",
+    "adhesive_wave_pressure",
     "cattaneo_mindlin",
     "circle_displacement",
     "clustered_times",
     "cone",
+    "edge_energy",
     "fast_sphere_friction_coefficient",
     "flat_punch",
     "full_contact_pressure",

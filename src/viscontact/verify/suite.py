@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from viscontact.verify import (
+    adhesion,
     coupled_friction,
     creeping_friction,
     edges,
@@ -43,6 +44,7 @@ CASES: tuple[Case, ...] = (
     *given_pressure.CASES,
     *leakage.CASES,
     *rough_theory.CASES,
+    *adhesion.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.

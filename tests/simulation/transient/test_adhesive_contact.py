@@ -1,5 +1,7 @@
 """Whole runs of bodies that adhere: cycles, jumps, pull-off, creep, and runs that continue."""
 
+import io
+import itertools
 from copy import deepcopy
 
 import numpy as np
@@ -11,6 +13,7 @@ from returned import some
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.state import Outcome
 from viscontact.reference import maugis_dugdale, tabor_number
+from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import prepare_run
 
@@ -199,6 +202,59 @@ def test_continued_run_has_the_same_bits(creeping):
             assert (one.force, one.work, one.events) == (other.force, other.work, other.events)
 
 
+def written_and_read(data):
+    """Restart data as they come back from a checkpoint on disk."""
+    file = io.BytesIO()
+    write_plain(file, data)
+    file.seek(0)
+    return read_plain(file)
+
+
+def same(one, other):
+    """True if plain data are equal to the bit, NaN included."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, np.ndarray):
+        return one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    return one == other or (one != one and other != other)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("control", ["approach", "stage", "force"])
+def test_run_that_is_killed_in_any_step_continues_to_the_same_bits(control):
+    # A run that is killed in a step, be it a jump, repeats that step from the checkpoint before it:
+    # if each step from its checkpoint comes to the same data, so does all that follows.
+    levels = np.array([-2.0, -0.4, -2.0])
+    if control == "force":
+        load = vc.ForceHistory([0.0, 1.0, 2.0], np.array([0.0, 0.3, -1.5]) * 3 * FORCE)
+    else:
+        spring = 2 * FORCE / DEPTH if control == "stage" else None
+        levels -= [0.5, 0.0, 2.0] if spring else 0.0
+        load = vc.ApproachHistory([0.0, 1.0, 2.0], levels * DEPTH, stage_stiffness=spring)
+    problem = contact_problem(
+        indenter=SPHERE,
+        material=vc.Material(vc.Zener(2.5e5, 2.5e5, 2.5e4), poisson_ratio=0.5),
+        load=load,
+        grid=grid(20, 5.0),
+        times=np.linspace(0.0, 2.0, 9),
+        adhesion=adhesion(),
+    )
+    setup = prepare_run(problem)
+    loop, saved = March(setup), []
+    kinds = set()
+    for state in loop:
+        saved.append(deepcopy(loop.restart_data()))
+        kinds |= {event.kind for event in (() if state is None else state.events)}
+    assert "pull_off" in kinds
+    assert len(saved) > 50
+    for before, after in itertools.pairwise(saved):
+        again = March(setup, written_and_read(before))
+        next(iter(again))
+        assert same(again.restart_data(), after)
+
+
 def test_program_pulls_to_a_force_and_ends_where_contact_is_lost():
     speed = f"{DEPTH * 1e6:.9f} um/s"
     program = vc.LoadProgram(
@@ -210,7 +266,7 @@ def test_program_pulls_to_a_force_and_ends_where_contact_is_lost():
     assert kinds == ["condition", "pull_off", "condition"]
     at = found.attrs["event_times"]
     assert float(found.force.sel(time=at[0], method="nearest")) == close_to(-FORCE, rel=1e-5)
-    assert at[1] < at[2] == close_to(at[1], rel=1e-3)
+    assert at[1] < at[2] == close_to(at[1], rel=3e-3)  # a step later at most
     assert found.attrs["pull_off_force"] == close_to(1.664 * FORCE, rel=5e-3)
     assert int(found.outcome[-1]) == Outcome.NO_CONTACT
 

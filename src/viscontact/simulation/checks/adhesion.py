@@ -72,7 +72,7 @@ def law_on(problem: Problem, grid: Grid) -> CohesiveLaw:
     """Attraction of a problem on a grid; ValueError if its cells are too large for the range."""
     adhesion = problem.adhesion
     assert adhesion is not None  # the caller has seen one
-    spacing = math.sqrt(grid.cell_area)
+    spacing = longest_edge(grid)
     if has_no_range(adhesion):
         strength = math.sqrt(_zone(1.0, adhesion.work, problem) / (CHOSEN_CELLS * spacing))
         adhesion = Adhesion(adhesion.work, strength=strength, law=adhesion.law)
@@ -104,7 +104,13 @@ def resolved_on(problem: Problem, grid: Grid) -> Problem:
 
 def cells_across_zone(law: CohesiveLaw, problem: Problem, grid: Grid) -> float:
     """Cells across the cohesive zone of the relaxed body, π w/(8 J σ0²)."""
-    return _zone(law.strength, law.work, problem) / math.sqrt(grid.cell_area)
+    return _zone(law.strength, law.work, problem) / longest_edge(grid)
+
+
+def longest_edge(grid: Grid) -> float:
+    """Longest edge of a cell [m], but for that of the only cell along a line contact."""
+    edges = zip(grid.shape, grid.cell_size, strict=True)
+    return max((edge for count, edge in edges if count > 1), default=max(grid.cell_size))
 
 
 def tail_warnings(law: CohesiveLaw, pressure: Floats, grid: Grid) -> dict[str, str]:

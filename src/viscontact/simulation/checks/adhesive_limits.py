@@ -18,6 +18,7 @@ from viscontact.simulation.checks.adhesion import (
     NOTABLE_TAIL,
     cells_across_zone,
     has_no_range,
+    longest_edge,
     tail_warning,
 )
 from viscontact.units.formatting import format_number, format_quantity
@@ -77,7 +78,7 @@ def adhesion_rows(law: CohesiveLaw, problem: Problem, grid: Grid) -> Iterator[tu
         slow = " when withdrawn slowly" if creeps else ""
         yield "pull-off force", f"{least} (JKR) to {most} (DMT){slow}"
     width = cells_across_zone(law, problem, grid)
-    size = format_quantity(width * math.sqrt(grid.cell_area), "m", 3)
+    size = format_quantity(width * longest_edge(grid), "m", 3)
     yield "cohesive zone", f"{size} wide, {format_number(width, 2)} cells"
 
 

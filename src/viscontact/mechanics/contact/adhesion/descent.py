@@ -36,6 +36,10 @@ NEAR, CONVERGES = 3e-2, 0.8
 #: change of the strength takes it over one cell.
 LONGEST_ABRUPT = 0.3
 
+#: Factors by which the longest step shrinks where it led beyond a state, and grows again; least of
+#: what a step may be lengthened by, which shrinks and grows with it.
+SHORTENED, GROWING, LEAST_FACTOR = 4.0, 1.5, 8.0
+
 
 @dataclass(frozen=True, eq=False)
 class Descended:
@@ -45,6 +49,7 @@ class Descended:
     traction: Floats  # attraction that the next iteration begins with [Pa]
     change: float  # largest change of the attraction in the last iteration [Pa]
     growth: float  # mean change in the last iteration [Pa]
+    way: Floats | None = None  # change of the attraction in the last iteration [Pa]
     detached: bool = False  # True if the attraction does not carry the force any more
 
 
@@ -55,6 +60,8 @@ class Descent:
         self._problem, self._domain, self._law = problem, domain, problem.law.decreasing
         self._traction = traction
         self._pressed: Guess | None = None
+        self._most = problem.law.strength * (LONGEST_ABRUPT if problem.law.is_abrupt else NEAR)
+        self._longest, self._factor = self._most, LEAST_FACTOR
         self.convolutions = self.iterations = 0
         self._last: Descended | None = None
 
@@ -65,10 +72,7 @@ class Descent:
 
     def run(self) -> Descended:
         """Iterate until the attraction approaches a state, or turns back from one it has passed."""
-        law = self._problem.law
-        near, longest = (
-            part * law.strength for part in (NEAR, LONGEST_ABRUPT if law.is_abrupt else NEAR)
-        )
+        near = NEAR * self._problem.law.strength
         while True:
             before, last = self._traction, self._last
             found = self._iterate()
@@ -76,15 +80,18 @@ class Descent:
             self.iterations += 1
             if found.detached or self.is_spent:
                 return found
-            if last is None or found.change > longest:
+            if last is None:
                 continue
-            turns = found.growth * last.growth < 0
+            turns = _turns(last, found)
+            grown = 1 / SHORTENED if turns else GROWING
+            self._longest = min(self._longest * grown, self._most)
+            self._factor = max(self._factor * grown, LEAST_FACTOR)
             slows = turns or found.change <= CONVERGES * last.change or found.change == 0
             if slows and found.change <= near:
                 return found
-            if not slows:  # a longer step along the same way
-                way = found.traction - before
-                self._traction = np.maximum(before + (longest / found.change) * way, 0.0)
+            if not slows and found.change < self._longest:  # a longer step along the same way
+                way, factor = found.traction - before, self._longest / found.change
+                self._traction = np.maximum(before + min(factor, self._factor) * way, 0.0)
 
     def _iterate(self) -> Descended:
         """Contact under the attraction so far, and that of its gap."""
@@ -110,7 +117,8 @@ class Descent:
         change = traction - self._traction
         guess = Guess(pressed.values - pulled, pressed.motion)
         self._traction = traction
-        return Descended(guess, traction, float(np.abs(change).max()), float(change.mean()))
+        largest, mean = float(np.abs(change).max()), float(change.mean())
+        return Descended(guess, traction, largest, mean, change)
 
     def _pressed_under(self, open_gap: Floats, targets: Floats) -> Guess:
         """Contact under p >= 0 by itself, with the resultants that include the attraction's."""
@@ -161,3 +169,11 @@ class Descent:
         found = solve_contact(contact, domain, guess, tolerance=CONTACT_TOLERANCE)
         self.convolutions += found.convolutions
         return found.found
+
+
+def _turns(last: Descended, now: Descended) -> bool:
+    """True if an iteration leads back, in the mean or where the attraction changes most."""
+    if last.way is None or now.way is None:
+        return False
+    along = float(np.einsum("ij,ij->", last.way, now.way))
+    return along < 0 or last.growth * now.growth < 0

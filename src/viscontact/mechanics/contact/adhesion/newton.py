@@ -42,6 +42,10 @@ INNER_TOLERANCE = 0.1
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
 
+#: Newton steps from which on a step of a law that ends abruptly is halved if it does not halve the
+#: residual: its front may go to and fro, as a step takes its width over the cells as given.
+FIRST_STEPS = 2
+
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
 
@@ -68,21 +72,31 @@ def newton_search(
     iterate, convolutions = start, 1
     domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
     checked = residual_of(problem, domain, iterate)
-    least = checked.error
+    least, may_cycle = checked.error, problem.law.is_abrupt
     for step in range(max_steps):
         if checked.error <= tolerance:
             return NewtonSearch(iterate, checked, step, convolutions, converged=True)
         if not checked.error <= DIVERGED * max(least, tolerance):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
+        last = Guess(iterate.values.copy(), iterate.motion) if may_cycle else iterate
+        before = checked.error
         motion = iterate.motion + system.solve(iterate.pressure)
         iterate = Guess(iterate.values, motion)
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
         checked = residual_of(problem, domain, iterate)
+        if may_cycle and step >= FIRST_STEPS and checked.error > before / 2:
+            iterate = _midway(last, iterate)
+            checked = residual_of(problem, domain, iterate)
         least = min(least, checked.error)
         convolutions += system.convolutions + 1
     converged = checked.error <= tolerance
     return NewtonSearch(iterate, checked, max_steps, convolutions, converged)
+
+
+def _midway(one: Guess, other: Guess) -> Guess:
+    """Mean of two iterates, whose displacement is the mean of theirs."""
+    return Guess((one.values + other.values) / 2, (one.motion + other.motion) / 2)
 
 
 class LinearStep:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,10 +42,13 @@ class AdhesiveProblem:
         pull = np.array([self.spring * iterate.motion[0], 0.0, 0.0])
         return np.where(constraints.free, constraints.targets - pull - sums, 0.0)
 
-    def displacement(self, iterate: Guess) -> float:
-        """Displacement that errors of the gap are relative to [m]."""
-        largest = self.contact.compliance * float(np.abs(iterate.unit_displacement).max())
-        return max(self.contact.displacement_scale, largest)
+    def displacement(self, iterate: Guess, spacing: float) -> float:
+        """Displacement that errors of the gap are relative to [m], on cells of an edge [m]."""
+        compliance = self.contact.compliance
+        largest = compliance * float(np.abs(iterate.unit_displacement).max())
+        # Without a load a flat punch has no pressure where attraction and contact cancel.
+        of_cell = compliance * self.law.strength * spacing
+        return max(self.contact.displacement_scale, largest, of_cell)
 
     def traction_scale(self, iterate: Guess) -> float:
         """Traction that errors of the traction are relative to [Pa]."""
@@ -141,7 +145,7 @@ def residual_of(
         gap,
         pulled,
         in_contact,
-        float(overlap.max()) / problem.displacement(iterate),
+        float(overlap.max()) / problem.displacement(iterate, math.sqrt(whole.cell_area)),
         float(missing.max()) / problem.traction_scale(iterate),
         float(np.abs(lacking).max()) / force if force else float(np.abs(lacking).max() > 0),
     )
