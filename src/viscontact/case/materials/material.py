@@ -125,7 +125,9 @@ def from_library(given: Any) -> Any:
         raise PydanticCustomError("library", "{why}", {"why": library.unknown_name(name)})
     entry = library.entry(name)
     # A run beyond the measured range issues a warning.
-    section = {**entry.material, "measured_until": f"{entry.measured[1]!r} s"}
+    section = dict(entry.material)
+    if entry.measured is not None:
+        section["measured_until"] = f"{entry.measured[1]!r} s"
     if entry.limits:
         section["measured_range"] = dict(entry.limits)
     if not _VOLUME.isdisjoint(keys):

@@ -39,7 +39,7 @@ def list_library(output: Path | None = None) -> None:
             each.family,
             each.temperature.partition(" (")[0].partition(",")[0],
             each.test.partition(" ")[0],
-            " to ".join(format_quantity(instant, "s", 2) for instant in each.measured),
+            _range(each, 2),
         )
         for each in entries
     ]
@@ -84,6 +84,13 @@ def _print_about(shown: MaterialDisplay) -> None:
         put(f"  note          {note}")
 
 
+def _range(entry: Entry, digits: int) -> str:
+    """First and last time on which the constants rest."""
+    if entry.measured is None:
+        return "any time"
+    return " to ".join(format_quantity(instant, "s", digits) for instant in entry.measured)
+
+
 def _shift(shift: Shift) -> str:
     if isinstance(shift, WLF):
         rule = f"WLF, C1 = {shift.c1:.6g} and C2 = {shift.c2:.6g} K"
@@ -103,7 +110,7 @@ def _print_entry(entry: Entry) -> None:
         "source": entry.source,
         "temperature": entry.temperature,
         "test": entry.test,
-        "range": " to ".join(format_quantity(t, "s") for t in entry.measured),
+        "range": _range(entry, 4),
         "limits": ", ".join(
             f"{key.replace('_', ' ')} {' to '.join(value) if isinstance(value, list) else value}"
             for key, value in entry.limits.items()

@@ -30,8 +30,8 @@ class Entry:
         Authors, year, title, journal or repository, table or file; and in a few words.
     temperature, test : str
         At what temperature and in what test it was measured.
-    measured : tuple of float
-        First and last time on which the constants rest [s].
+    measured : tuple of float or None
+        First and last time on which the constants rest [s]; none of elastic ones.
     constants : str
         Origin: printed, and the place, or identified here, and from which data.
     limits : dict
@@ -56,7 +56,7 @@ class Entry:
     cite: str
     temperature: str
     test: str
-    measured: tuple[float, float]
+    measured: tuple[float, float] | None
     limits: dict[str, Any]
     constants: str
     volume: str
@@ -118,9 +118,12 @@ def entry(name: str) -> Entry:
         _folder().joinpath(f"{name}.yaml").read_text(encoding="utf-8")
     )
     ratio = given["material"].get("poisson_ratio")
-    first, last = (parse_quantity(text, "time") for text in given.pop("range"))
+    measured = None
+    if "range" in given:
+        first, last = (parse_quantity(text, "time") for text in given.pop("range"))
+        measured = first, last
     points = tuple(read_points(each, ratio) for each in given.pop("points"))
-    return Entry(**given, measured=(first, last), points=points)
+    return Entry(**given, measured=measured, points=points)
 
 
 def _folder() -> Traversable:
