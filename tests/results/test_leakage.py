@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy
 import xarray as xr
 
 import viscontact as vc
@@ -215,6 +216,35 @@ def test_stated_error_covers_the_limit_of_finer_cells() -> None:
         values.append([each.transmissivity for each in solved])
     error = abs(values[0][1] - values[0][0])
     assert abs(values[2][0] - values[0][0]) < error
+
+
+def test_flows_along_both_axes_by_one_factorisation_are_those_along_each(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    solve, called = scipy.sparse.linalg.splu, []
+
+    def counted(*given: Any, **more: Any) -> Any:
+        called.append(1)
+        return solve(*given, **more)
+
+    monkeypatch.setattr(scipy.sparse.linalg, "splu", counted)
+    open_along_x = rough(7, 0.2)
+    open_along_x[:, 5] = 0.0
+    for gap, factorisations in ((rough(6, 0.15), 2), (open_along_x, 2), (rough(6, 0.15).T, 2)):
+        ds = result(gap, (4e-4, 5e-4))
+        called.clear()
+        both = vc.leakage(ds, **FLUID, along="both", fields="all")
+        assert len(called) == factorisations
+        for axis in "xy":
+            one = vc.leakage(ds, **FLUID, along=axis, fields="all")
+            for name in ("transmissivity", "transmissivity_error", "leak_rate"):
+                np.testing.assert_allclose(both[name].sel(direction=axis), one[name], rtol=1e-9)
+            flows = both.flux_x.sel(direction=axis), one.flux_x
+            np.testing.assert_allclose(*flows, atol=1e-9 * float(np.abs(one.flux_x).max()))
+    free = result(rough(6, 0.15), (4e-4, 5e-4), periodic=False)
+    called.clear()
+    vc.leakage(free, **FLUID, along="both")
+    assert len(called) == 4  # given pressures at other ends
 
 
 def test_leak_rate_has_the_units_of_the_seal() -> None:

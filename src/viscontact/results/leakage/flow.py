@@ -19,7 +19,7 @@ Flow, Hemisphere 1980, section 4.2-3.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -89,16 +89,37 @@ def solved_flow(
     mean: FaceMean = harmonic,
 ) -> ChannelFlow:
     """Flow along an axis through the cells of channels, whose gaps are positive [m]."""
+    return solved_flows(gap, cells, (flow,), cell_size, mean)[0]
+
+
+def solved_flows(
+    gap: Floats,
+    cells: Bools,
+    flows: Sequence[FlowAxis],
+    cell_size: tuple[float, float],
+    mean: FaceMean = harmonic,
+) -> list[ChannelFlow]:
+    """Flows along axes through the cells of channels, by one factorisation.
+
+    Several are those from period to period through the same cells: only their sources differ.
+    """
     scale = float(gap[cells].max())  # so that no cube underflows
-    faces = _Faces(np.where(cells, gap / scale, 0.0), cells, flow, cell_size, mean)
-    unknown, pressure = faces.solved()
+    scaled = np.where(cells, gap / scale, 0.0)
+    each_faces = [_Faces(scaled, cells, flow, cell_size, mean) for flow in flows]
+    factors = each_faces[0].factorised()
+    return [_flow(faces, scale**3 / 12, factors) for faces in each_faces]
+
+
+def _flow(faces: _Faces, factor: float, factors: Any) -> ChannelFlow:
+    """Flow by the factors of its matrix, with a unit of conductance [m³]."""
+    pressure = np.zeros(faces.cells.shape)
+    pressure[faces.cells] = factors.solve(faces.source())
     flux_x, flux_y = faces.fluxes(pressure)
-    shape = gap.shape
-    length, width = (shape[a] * cell_size[a] for a in (flow.axis, 1 - flow.axis))
-    shown = np.where(unknown >= 0, pressure + faces.mean_fall, np.nan)
-    factor = scale**3 / 12
+    shape, axis = faces.cells.shape, faces.flow.axis
+    length, width = (shape[a] * faces.cell_size[a] for a in (axis, 1 - axis))
+    shown = np.where(faces.cells, pressure + faces.mean_fall, np.nan)
     steps = factor * faces.dissipation_at_steps(pressure)
-    return ChannelFlow(shown, factor * flux_x, factor * flux_y, flow, length, width, steps)
+    return ChannelFlow(shown, factor * flux_x, factor * flux_y, faces.flow, length, width, steps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,63 +183,80 @@ class _Faces:
             along[:, None] if self.flow.axis == 0 else along[None, :], self.gap.shape
         )
 
-    def solved(self) -> tuple[Any, Floats]:
-        """Numbers of the unknowns (-1 outside), and the pressure, without the mean fall."""
+    @cached_property
+    def unknown(self) -> Any:
+        """Numbers of the unknowns; -1 outside."""
         unknown = np.full(self.cells.shape, -1)
         unknown[self.cells] = np.arange(int(self.cells.sum()))
-        matrix, source = self._system(unknown)
+        return unknown
+
+    def factorised(self) -> Any:
+        """Factors of the balance of the flows out of each cell."""
         # Symmetric and positive definite: no pivoting, and an ordering for symmetric matrices.
-        factors = scipy.sparse.linalg.splu(
-            matrix,
+        return scipy.sparse.linalg.splu(
+            self._matrix(),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )
-        pressure = np.zeros(self.cells.shape)
-        pressure[self.cells] = factors.solve(source)
-        return unknown, pressure
 
-    def _system(self, unknown: Any) -> tuple[Any, Floats]:
-        """Balance of the flows out of each cell: matrix and right-hand side."""
+    def _matrix(self) -> Any:
         count = int(self.cells.sum())
-        diagonal, source = np.zeros(count), np.zeros(count)
+        diagonal = np.zeros(count)
         rows, columns, values = [], [], []
-        for axis, conductance in enumerate(self.conductances):
-            face = conductance > 0
-            one, other = unknown[face], np.roll(unknown, -1, axis)[face]
-            of_face = conductance[face]
-            np.add.at(diagonal, one, of_face)
-            np.add.at(diagonal, other, of_face)
+        for one, other, conductance in self._joints():
+            np.add.at(diagonal, one, conductance)
+            np.add.at(diagonal, other, conductance)
             rows += [one, other]
             columns += [other, one]
-            values += [-of_face, -of_face]
-            if axis == self.flow.axis and self.flow.ends == "period":
-                drop = of_face / self.gap.shape[axis]
-                np.add.at(source, one, -drop)
-                np.add.at(source, other, drop)
-        self._close(unknown, diagonal, source)
+            values += [-conductance, -conductance]
+        self._close(diagonal)
         rows.append(np.arange(count))
         columns.append(np.arange(count))
         values.append(diagonal)
         places = np.concatenate(rows), np.concatenate(columns)
-        matrix = scipy.sparse.csc_matrix((np.concatenate(values), places), shape=(count, count))
-        return matrix, source
+        return scipy.sparse.csc_matrix((np.concatenate(values), places), shape=(count, count))
 
-    def _close(self, unknown: Any, diagonal: Floats, source: Floats) -> None:
+    def _joints(self) -> Iterator[tuple[Any, Any, Floats]]:
+        """Unknowns on both sides of the open faces, and their conductances, along x and along y."""
+        for axis, conductance in enumerate(self.conductances):
+            face = conductance > 0
+            other = np.roll(self.unknown, -1, axis)
+            yield self.unknown[face], other[face], conductance[face]
+
+    def source(self) -> Floats:
+        """Flow into each cell by the pressures at the ends, or by that which falls evenly."""
+        source = np.zeros(int(self.cells.sum()))
+        if self.flow.ends == "pressure":
+            inside, conductance = self._first_and_last()[0]
+            np.add.at(source, inside, conductance)  # of unit pressure; it is 0 at the last
+            return source
+        one, other, conductance = list(self._joints())[self.flow.axis]
+        drop = conductance / self.gap.shape[self.flow.axis]
+        np.add.at(source, one, -drop)
+        np.add.at(source, other, drop)
+        return source
+
+    def _first_and_last(self) -> list[tuple[Any, Floats]]:
+        """Unknowns at both outer faces, and the conductances of these."""
+        lines = np.moveaxis(self.unknown, self.flow.axis, 0)
+        return [
+            (lines[end][lines[end] >= 0], conductance[lines[end] >= 0])
+            for end, conductance in zip((0, -1), self.ends, strict=True)
+        ]
+
+    def _close(self, diagonal: Floats) -> None:
         """Give the pressures at the ends, or that of one cell of each component."""
         if self.flow.ends == "pressure":
-            lines = np.moveaxis(unknown, self.flow.axis, 0)
-            for end, conductance, level in zip((0, -1), self.ends, (1.0, 0.0), strict=True):
-                inside = lines[end] >= 0
-                np.add.at(diagonal, lines[end][inside], conductance[inside])
-                np.add.at(source, lines[end][inside], level * conductance[inside])
+            for inside, conductance in self._first_and_last():
+                np.add.at(diagonal, inside, conductance)
             return
         numbers, _ = components(self.cells, self.flow.joined)
         # The widest cell of each, whose equation is not lost in rounding.
         order = np.argsort(-self.gap, axis=None, kind="stable")
         _, first = np.unique(numbers.ravel()[order], return_index=True)
         for place in order[first].tolist():
-            index = int(unknown.flat[place])
+            index = int(self.unknown.flat[place])
             if index >= 0:
                 diagonal[index] *= 2  # the flows balance, so that its pressure is 0
 

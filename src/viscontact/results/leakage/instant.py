@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,7 +22,7 @@ from viscontact.results.leakage.flow import (
     FaceMean,
     harmonic,
     of_mean_gap,
-    solved_flow,
+    solved_flows,
 )
 
 #: Multiple of the tolerance of a run, over the scatter of its gap, below which a gap is noise.
@@ -40,6 +41,16 @@ class InstantLeakage:
     grid: Grid
     flow: FlowAxis
     tolerance: float  # relative error of the gap
+    other: FlowAxis | None = None  # axis of a flow that is found at this instant as well
+    #: Flows along the other axis that were found at once, by the mean at faces and the axis.
+    solved: dict[tuple[FaceMean, FlowAxis], ChannelFlow] = field(default_factory=dict)
+
+    def along(self, flows: Sequence[FlowAxis]) -> list[InstantLeakage]:
+        """Leakage of the same gap along one axis or both."""
+        others = (*flows[1:], *flows[:1]) if len(flows) > 1 else (None,)
+        return [
+            replace(self, flow=flow, other=other) for flow, other in zip(flows, others, strict=True)
+        ]
 
     @property
     def extents(self) -> tuple[float, float]:
@@ -112,7 +123,20 @@ class InstantLeakage:
                 "leakage: the channel leads beyond the end of the body, where the gap is infinite "
                 "or unknown; give a grid within the body"
             )
-        return solved_flow(self.gap, self.cells, self.flow, self.grid.cell_size, mean)
+        if (mean, self.flow) in self.solved:
+            return self.solved.pop((mean, self.flow))
+        flows = [self.flow, *self._alike]
+        own, *others = solved_flows(self.gap, self.cells, flows, self.grid.cell_size, mean)
+        self.solved.update({(mean, each.flow): each for each in others})
+        return own
+
+    @cached_property
+    def _alike(self) -> list[FlowAxis]:
+        """The other axis, if the flow along it has the same cells and faces."""
+        if self.other is None or {self.flow.ends, self.other.ends} != {"period"}:
+            return []
+        same = np.array_equal(channel(~self.touched & (self.gap > 0), self.other), self.cells)
+        return [self.other] if same and self.flow.joined == self.other.joined else []
 
     @property
     def transmissivity(self) -> float:

@@ -121,7 +121,7 @@ def leakage(  # noqa: PLR0913
     places, grid = field_times(ds, "leakage"), recorded_grid(ds)
     axes = [0, 1] if along == "both" else ["xy".index(along)]
     flows = [flow_axis("xy"[axis], ends, grid) for axis in axes]
-    instants = [list(each) for each in zip(*(_instants(ds, grid, f) for f in flows), strict=True)]
+    instants = list(_instants(ds, grid, flows))
     found = _dataset(ds, instants, fluid, keep=fields == "all")
     if along != "both":
         found = found.isel(direction=0, drop=True)
@@ -156,9 +156,11 @@ def instant_leakage(ds: xr.Dataset, index: int, along: str, ends: Ends | None) -
     return _instant(ds, grid, flow_axis(along, ends, grid), index)
 
 
-def _instants(ds: xr.Dataset, grid: Grid, flow: FlowAxis) -> Iterator[InstantLeakage]:
+def _instants(ds: xr.Dataset, grid: Grid, flows: list[FlowAxis]) -> Iterator[list[InstantLeakage]]:
+    """Leakage at each stored instant along some axes, which share what they have in common."""
     for index in range(ds.sizes[ds["pressure"].dims[0]]):
-        yield _instant(ds, grid, flow, index)
+        first = _instant(ds, grid, flows[0], index)
+        yield first.along(flows)
 
 
 def _instant(ds: xr.Dataset, grid: Grid, flow: FlowAxis, index: int) -> InstantLeakage:

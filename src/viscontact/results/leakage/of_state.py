@@ -63,17 +63,21 @@ class CaseLeakage:
         """Scalars of a state with its fields."""
         found = self.unknown
         with suppress(ValueError):  # the sentences below the table of the run give the reason
-            for axis in self._axes:
-                values = self._values(state, axis)
+            for axis, flow in zip(self._axes, self._flows(state), strict=True):
+                values = self._values(flow)
                 found |= {self._named(name, axis): value for name, value in values.items()}
         return found
 
-    def _values(self, state: ContactState, axis: str) -> dict[str, float]:
-        flow = flow_axis(axis, self.settings.get("ends"), state.grid)
+    def _flows(self, state: ContactState) -> list[InstantLeakage]:
+        """Leakage of a state along each axis."""
+        axes = [flow_axis(each, self.settings.get("ends"), state.grid) for each in self._axes]
         gap = np.asarray(state.gap, dtype=np.float64)
         if np.isnan(gap).any():
             raise ValueError("leakage: the gap is not known on the whole grid")
-        found = InstantLeakage(gap, state.in_contact, state.grid, flow, self.tolerance)
+        found = InstantLeakage(gap, state.in_contact, state.grid, axes[0], self.tolerance)
+        return found.along(axes)
+
+    def _values(self, found: InstantLeakage) -> dict[str, float]:
         fluid, extents = fluid_of(self.settings), found.extents
         transmissivity, error = np.array(found.transmissivity), np.array(found.error)
         return {
