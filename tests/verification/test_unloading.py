@@ -181,3 +181,19 @@ def test_sudden_unloading_of_a_crept_contact(left):
     state = list(vc.march(BALL, body.material, load, grid, times, tolerance=1e-7))[-1]
     assert state.force == close_to(left * FORCE, rel=1e-6)
     assert math.sqrt(state.contact_area / math.pi) == close_to(radius, rel=2.5e-3)
+
+
+@pytest.mark.parametrize("height", [-1e-6, -40e-6, -1e-3])
+def test_work_of_a_jump_off_the_surface_does_not_depend_on_how_far(height: float) -> None:
+    # Hertz (1881): a held sphere has F(t) δ 2/5 of elastic energy if all of its body had always
+    # been as stiff as it is at t; a sudden step gives back the part J(0)/J(t) of it.
+    law, deep, end = vc.Zener(1e6, 3e6, 10.0), 20e-6, 10.0
+    load = vc.ApproachHistory([0.0, end, end], [deep, deep, height])
+    grid = vc.Grid((48, 48), (1.6e-3, 1.6e-3))
+    body = vc.Material(law, 0.5)
+    ds = vc.simulate(vc.Sphere(5e-3), body, load, grid, [0.0, end, end + 1], errors=False)
+    relaxed = law.relaxation(end) / law.relaxation(0.0)
+    force = relaxed * ds.force.values[0]
+    returned = 0.4 * force * deep * relaxed
+    assert ds.force.values[-1] == 0
+    assert ds.work.values[-1] == close_to(ds.work.values[0] - returned, rel=0.01)

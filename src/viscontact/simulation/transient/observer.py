@@ -60,8 +60,8 @@ PEAK_CHECK_RATIO = 1.1
 NO_FORCE = 1e-6
 
 #: Most by which the work of a step differs from that of the mean loads, over the product of the
-#: changes of load and approach [-].
-MOST_OF_CHANGES = 0.25
+#: changes of load and approach [-]; and where the bodies are apart for a part of the step.
+MOST_OF_CHANGES, MOST_WHERE_APART = 0.25, 0.5
 
 
 class Observer:
@@ -318,9 +318,12 @@ class Observer:
             return work
         # Where the body creeps much within a step, pressure moves on while the load hardly does. By
         # the means of the loads the work errs by at most half the product of both changes, for an
-        # elastic force δ^m by |1/2 - 1/(m + 1)| of it: a sixth under a cone.
+        # elastic force δ^m by |1/2 - 1/(m + 1)| of it: a sixth under a cone. On the way without
+        # contact there is no work, on either side.
         change = solution.resultants - before.resultants
-        most = MOST_OF_CHANGES * abs(float(change @ travel))
+        apart = before.resultants[0] <= 0 or solution.resultants[0] <= 0
+        part = MOST_WHERE_APART if apart else MOST_OF_CHANGES
+        most = part * abs(float(change @ travel))
         return min(max(work, of_load - most), of_load + most)
 
 
