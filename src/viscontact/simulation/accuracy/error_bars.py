@@ -66,6 +66,13 @@ ERRORS_KEPT = (
     *("approach", "tilt_x", "tilt_y", "work", "loss_per_cycle"),
 )
 
+#: Width of the spots over the cells in contact along a line, from which on they are one. The width
+#: is the least of coarser grids, which may miss cells at the rim.
+ONE_SPOT = 0.7
+
+#: Factor of the errors of a run of a single instant, where none next to it show what they may be.
+SINGLE_INSTANT = 1.2
+
 #: Scalars that are exactly zero without contact.
 ZERO_WITHOUT_CONTACT = (
     *("force", "contact_area", "contact_length", "contact_width"),
@@ -179,7 +186,8 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     times = history["time"]
     at_end = moving_maximum(end_flags(times, results)) > 0
     spots = spots_across(times, results)
-    of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
+    spots = np.where(np.isnan(spots), moving_minimum(spots), spots)
+    of_spots = (spots < COARSE_SPOT_CELLS) & _in_several_spots(run, history, spots)
     # A creeping body keeps the error of a contact that has reached the end.
     creeping = creeps(run.problem.surface.creep, times)
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
@@ -187,6 +195,18 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     drops, exponents, bends = beside_peak(times, results)
     rises = rises_to_ends(times, results)
     return ContactKinds(at_end, ended, of_spots, singular, rises, drops, exponents, bends)
+
+
+def _in_several_spots(run: RunSetup, history: History, spots: Floats) -> Bools:
+    """Instants at which a line along y or x crosses several spots of a mean width in cells."""
+    if any(run.grid.periodic):
+        return np.ones(len(spots), dtype=bool)
+    lengths = [history["contact_length"], history["contact_width"]]
+    cells = [
+        _quotient(history["contact_area"], length * size)
+        for length, size in zip(lengths, reversed(run.grid.cell_size), strict=True)
+    ]
+    return np.asarray(spots < ONE_SPOT * np.minimum(*cells))
 
 
 def unknown_bars(history: History) -> ErrorBars:
@@ -255,6 +275,8 @@ def _quotient(error: Floats, scale: Floats) -> Floats:
 def _largest_nearby(relative: Floats, part: float) -> Floats:
     """Largest error at an instant and, in part, at the ones next to it; in full where unknown."""
     known = between_known(relative)
+    if relative.size == 1:
+        return SINGLE_INSTANT * relative
     nearby = moving_maximum(known, 1)
     return np.where(np.isnan(relative), nearby, np.fmax(known, part * nearby))
 

@@ -42,7 +42,7 @@ TINY = float(np.finfo(np.float64).tiny)
 RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.019, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
-FEW_CELLS = 9.0
+FEW_CELLS = 8.0
 
 #: Growth of the first of them with the length of the cells across an axis over that along it, as
 #: the widest line of a contact may lie between two lines of cells: rollers with cells of 11:1 err
@@ -52,17 +52,26 @@ LONG_CELLS = 0.4
 #: The same where the pressure drops steeply to the rim, to be added, times the square of the cells
 #: across: the gap opens as at a smooth rim only next to it. Rounded punches on some 12 cells err by
 #: 0.03 in the median, by 0.2 in one of ten.
-STEEP_RIM_CELLS = 14.0
+STEEP_RIM_CELLS = 18.0
 
 #: Least relative error of the area, times the square of the cells across; and times these cells
 #: where the pressure is largest near the rim.
-LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.05
+LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.06
 
 #: Least error of the rim in cells, in the mean and of an extent, where a contact on a creeping body
 #: has begun to recede: neither the pressure beside its rim nor the gap is as far from it. Within a
 #: cell of their largest contact, most after a quarter of it, balls err by 0.02 in the mean of the
-#: rim, at worst by 0.07; the extent of a rounded punch by 0.3 where its contact grows again.
-RECEDING_RIM_CELLS, RECEDING_EXTENT_CELLS, LARGEST_RIM_ERROR_AT = 0.028, 0.1, 0.25
+#: rim, at worst by 0.07, r^9 bodies by 0.07 after three cells; the extent of a rounded punch by 0.3
+#: where its contact grows again.
+RECEDING_RIM_CELLS, RECEDING_EXTENT_CELLS, LARGEST_RIM_ERROR_AT = 0.032, 0.1, 0.25
+
+#: Cells by which a contact has receded from where these errors are no larger than others.
+RECEDED_CELLS = 6.0
+
+#: How many times as large they are at the instant at which a contact is smallest, and at the next:
+#: it has begun to grow again, and the gap over the surface that it has just left is almost zero.
+#: Balls, ellipses and r^n bodies err by up to 0.2 in the mean of the rim, up to 0.3 in an extent.
+SMALLEST_CONTACT = 1.7
 
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
@@ -103,7 +112,7 @@ LEAST_END_ERROR = 0.4
 #: Least error of an eccentricity, over the extent of the contact, and of a tilt, over the slope of
 #: the indentation, times the square of the cells along that axis: balls and ellipses have 0.04 in
 #: the median. A tilt of e/R is four times the slope a/(2R) where e is the extent.
-LEAST_OFFSET, LEAST_TURN = 0.045, 0.14
+LEAST_OFFSET, LEAST_TURN = 0.045, 0.13
 
 #: How many times as large they are where the pressure drops steeply to the rim.
 STEEP_OFFSETS = 2.0
@@ -117,7 +126,7 @@ LEAST_END_AREA_ERROR = 1.1
 
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
-LEAST_PEAK_ERROR, SMOOTH_DROP = 0.14, 0.2
+LEAST_PEAK_ERROR, SMOOTH_DROP = 0.16, 0.2
 
 #: Least error of a peak at an apex r^n, in its drop to a neighbouring cell of a coarser grid, by
 #: the exponents that `apex_exponent` finds. It holds where the apex is midway between four cells of
@@ -150,7 +159,7 @@ class ContactKinds:
 
     at_end: Bools
     ended: Bools  # at the end, or has been there and keeps the error
-    of_spots: Bools  # consists of spots of few cells
+    of_spots: Bools  # consists of several spots of few cells
     singular: Bools  # the largest pressure has no limit
     #: Pressure rises to both ends of the contact along x, y; shape (2, times).
     rises: Bools
@@ -281,7 +290,7 @@ def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
 
 
 def _just_receding(run: RunSetup, history: History) -> Floats:
-    """1 where a contact on a creeping body has receded by part of a cell, 0 from one cell on."""
+    """1 where a contact on a creeping body has receded by part of a cell, 0 from some cells on."""
     area, largest = history["contact_area"], np.maximum.accumulate(history["contact_area"])
     if run.problem.surface.creep.is_elastic or not run.problem.motion.stands:
         return np.zeros(len(area))
@@ -289,9 +298,13 @@ def _just_receding(run: RunSetup, history: History) -> Floats:
     parts = 1 - np.divide(area, largest, out=np.ones_like(area), where=largest > 0)
     ways = parts * cells_of_breadth(run, history) / 4
     # A contact that grows again does so over the surface that it has just left.
-    grows_again = (np.diff(area, prepend=area[0]) > 0) & (ways < 1)
-    faded = np.where(grows_again, 1.0, np.maximum(1 - ways, 0.0))
-    return moving_maximum(np.minimum(ways / LARGEST_RIM_ERROR_AT, 1.0) * faded)
+    changes = np.diff(area)
+    grows_again = np.append(False, changes > 0) & (ways < RECEDED_CELLS)
+    faded = np.where(grows_again, 1.0, np.maximum(1 - ways / RECEDED_CELLS, 0.0))
+    receding = moving_maximum(np.minimum(ways / LARGEST_RIM_ERROR_AT, 1.0) * faded)
+    smallest = np.append(False, changes < 0) & np.append(changes > 0, False)
+    smallest[1:] |= smallest[:-1]
+    return np.where(smallest, SMALLEST_CONTACT, receding)
 
 
 def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Floats:
