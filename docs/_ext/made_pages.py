@@ -60,11 +60,14 @@ def _library() -> str:
 
 def _material(shipped: Entry) -> Iterator[str]:
     yield from (f"(material-{shipped.name})=", f"## {shipped.name}", "", f"{shipped.title}.", "")
-    first, last = (format_quantity(time, "s") for time in shipped.measured)
+    known = "any time, as it is elastic"
+    if shipped.measured is not None:
+        first, last = (format_quantity(time, "s") for time in shipped.measured)
+        known = f"{first} to {last}; a run outside this range issues a warning"
     rows = {
         "family": shipped.family,
         "measured": f"{shipped.test}, temperature: {shipped.temperature}",
-        "data range": f"{first} to {last}; a run outside this range issues a warning",
+        "data range": known,
         "source": shipped.source,
         "constants": shipped.constants,
         "volume": shipped.volume,

@@ -24,7 +24,7 @@ from viscontact.runs import over_time
 from viscontact.runs.directory import checkpoint, recorder
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation.transient import stepper
+from viscontact.simulation.transient import frictional_contact
 
 __all__ = ["folder", "whole"]  # fixtures
 
@@ -502,7 +502,7 @@ def test_failed_step_stands_at_the_end_of_the_result(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    solve = stepper.solve_contact
+    solve = frictional_contact.solve_contact
 
     def failing(problem: Any, *arguments: Any, **options: Any) -> Any:
         solution = solve(problem, *arguments, **options)
@@ -511,7 +511,7 @@ def test_failed_step_stands_at_the_end_of_the_result(
         return solution if done else type(solution)(**{**vars(solution), "converged": False})
 
     with monkeypatch.context() as patched:
-        patched.setattr(stepper, "solve_contact", failing)
+        patched.setattr(frictional_contact, "solve_contact", failing)
         assert main(["run", "case.yaml", "-q"]) == 1
     why, kept, remedy = said_in_lines(capsys)
     assert "short of the tolerance" in why
@@ -528,7 +528,7 @@ def test_memory_that_runs_out_stops_the_run_in_one_message(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    solve, count = stepper.solve_contact, 0
+    solve, count = frictional_contact.solve_contact, 0
 
     def solving(*arguments: Any, **options: Any) -> Any:
         nonlocal count
@@ -538,7 +538,7 @@ def test_memory_that_runs_out_stops_the_run_in_one_message(
         return solve(*arguments, **options)
 
     with monkeypatch.context() as patched:
-        patched.setattr(stepper, "solve_contact", solving)
+        patched.setattr(frictional_contact, "solve_contact", solving)
         assert main(["run", "case.yaml", "-q"]) == 1
     assert said_in_lines(capsys)[0] == "case: the run stopped: MemoryError"
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0

@@ -173,16 +173,16 @@ def test_work_of_a_cycle_that_ends_unloaded_is_heat() -> None:
 
 
 def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) -> None:
-    import viscontact.simulation.transient.stepper as stepper
+    import viscontact.simulation.transient.frictional_contact as frictional_contact
 
-    counts, solve = [], stepper.solve_contact
+    counts, solve = [], frictional_contact.solve_contact
 
     def counted(*args: Any, **options: Any) -> Any:
         solution = solve(*args, **options)
         counts.append(solution.convolutions)
         return solution
 
-    monkeypatch.setattr(stepper, "solve_contact", counted)
+    monkeypatch.setattr(frictional_contact, "solve_contact", counted)
     travelled(way=3.2)
     assert np.mean(counts) < 8  # 12 are allowed at a tolerance of 1e-6
 
