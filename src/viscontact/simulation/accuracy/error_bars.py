@@ -88,6 +88,9 @@ ZERO_WITHOUT_GRIP = (
     *("stick_area", "slip_fraction"),
 )
 
+#: Factor of the bars of bodies that are coupled by friction, whose tractions converge more slowly.
+COUPLED = 2.0
+
 #: The same of a moving contact, and those that are zero before the first contact.
 ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
 ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
@@ -250,6 +253,8 @@ def _bar(
     relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
+    if run.problem.is_coupled:
+        bar = COUPLED * bar
     return np.where(np.isnan(own), np.nan, bar)
 
 

@@ -110,12 +110,13 @@ def _slip_problem(run: RunSetup, region: Region, step: SlipStep) -> SlipProblem:
         *(contact, step.before.contact, run.grid.cell_size, step.response.kappa),
         plane=not run.grid.has_datum,
     )
+    gripping = contact.gripping[region.cut]
     return SlipProblem(
-        contact.in_contact[region.cut],
-        step.coefficient * contact.pressure[region.cut],
+        gripping,
+        step.coefficient * contact.pressure[region.cut] * gripping,
         step.past,
         step.response.compliance,
-        entry[:, *region.cut],
+        entry[:, *region.cut] * gripping,
         step.constraints,
         LEAST_SHIFT * step.coefficient * contact.displacement,
     )

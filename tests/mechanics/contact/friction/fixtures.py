@@ -4,6 +4,7 @@ import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.equilibrium import solve_slip
+from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.mechanics.halfspace.shear_filter import (
@@ -59,9 +60,10 @@ def solved(block, pressure, constraints, *, before=None, entry=None, start=None,
     """Solution of a step of an elastic body from the traction before it."""
     nothing = np.zeros((2, *pressure.shape))
     past = nothing if before is None else -COMPLIANCE * block.convolution.apply(before)
+    gripping = NormalContact(pressure, nothing[0], pressure > 0).gripping
     problem = SlipProblem(
-        pressure > 0,
-        FRICTION * pressure,
+        gripping,
+        FRICTION * pressure * gripping,
         past,
         COMPLIANCE,
         np.zeros((3, *pressure.shape)) if entry is None else entry,

@@ -139,6 +139,22 @@ def test_a_small_force_holds_all_but_the_rim():
     assert 1.6 < errors[0] / errors[1] < 2.5
 
 
+def test_cells_under_a_pressure_of_rounding_carry_nothing():
+    """Rim cells at 1e-17 of the pressure, which might stick or slip, do not stop the search."""
+    grid, pressure = hertz(24)
+    block, rim = shear_block(grid, 0.26), (pressure == 0) & (np.roll(pressure, 1, 0) > 0)
+    touched = np.where(rim, 1e-17 * PEAK, pressure)
+    before = solved(block, pressure, under((0.8 * LIMIT, 0.0, 0.0))).traction
+    for force in (-0.05, 0.3):
+        constraints = under((force * LIMIT, 0.0, 0.0))
+        found = solved(block, touched, constraints, before=before, tolerance=1e-6)
+        assert found.converged
+        assert found.iterations < 40
+        assert not found.state[rim].any()
+        without = solved(block, pressure, constraints, before=before, tolerance=1e-6)
+        np.testing.assert_allclose(found.traction, without.traction, atol=1e-5 * PEAK)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_random_steps_follow_coulombs_law(seed):
     """Steps of force, torque and shift: the law in each cell, balances, and a small duality gap."""

@@ -10,6 +10,9 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 
+#: Pressure over the largest that is rounding.
+ROUNDING = 1e-12
+
 
 @dataclass(frozen=True, eq=False)
 class NormalContact:
@@ -30,6 +33,13 @@ class NormalContact:
     def cells(self) -> int:
         """Number of cells in contact."""
         return int(np.count_nonzero(self.in_contact))
+
+    @property
+    def gripping(self) -> Bools:
+        """Cells that carry tractions: in contact under a pressure that is not rounding."""
+        # Tractions on the others could be any, but their slip would be judged like all slip: the
+        # search for them does not end.
+        return np.asarray(self.in_contact & (self.pressure > ROUNDING * self.pressure.max()))
 
     def entered_since(self, before: NormalContact) -> Bools:
         """Cells in contact that were open before."""
