@@ -228,8 +228,10 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     def attributes(self) -> dict[str, Any]:
         """Attributes that every result carries."""
 
-    def attributes_after(self, states: Sequence[ContactState]) -> dict[str, Any]:
-        """Attributes that follow from the states."""
+    def attributes_after(
+        self, states: Sequence[ContactState], described: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """Attributes that follow from the states, and from what error bars have described."""
         return {}
 
     def field_axis(self, states: Sequence[ContactState]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -125,17 +125,21 @@ class OverTime(Analysis[RunSetup, March]):
         """Attributes that every result carries."""
         return run_attributes(self.setup)
 
-    def attributes_after(self, states: Sequence[ContactState]) -> dict[str, Any]:
+    def attributes_after(
+        self, states: Sequence[ContactState], described: Mapping[str, Any]
+    ) -> dict[str, Any]:
         """Enlargements of the grid, and events of bodies that adhere."""
         events = [event for state in states for event in state.events]
         found = {"grid_enlarged": "\n".join(enlargements(self.grid, states))}
-        return found | self.event_attributes(events)
+        return found | self.event_attributes(events, self.attributes | dict(described))
 
-    def event_attributes(self, events: Sequence[ContactEvent]) -> dict[str, Any]:
-        """Attributes of the events of bodies that adhere; none of others."""
+    def event_attributes(
+        self, events: Sequence[ContactEvent], described: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """Attributes of the events of bodies that adhere, with errors described; none of others."""
         if self.contact.adhesion is None:
             return {}
-        return contact_event_attributes(events, self.attributes)
+        return contact_event_attributes(events, described)
 
     @property
     def longest_creep(self) -> float:

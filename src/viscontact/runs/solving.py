@@ -15,7 +15,7 @@ from viscontact.results.dataset import to_dataset
 from viscontact.runs.analysis import Analysis
 from viscontact.simulation.accuracy.coarser_results import history_of
 from viscontact.simulation.accuracy.error_bars import ErrorBars
-from viscontact.simulation.transient.provenance import date_and_time
+from viscontact.simulation.transient.provenance import JUMP_TIME_ERRORS, date_and_time
 from viscontact.simulation.transient.state_generator import Progress
 
 #: Frames between a warning and the caller of `simulate` or `steady`.
@@ -64,15 +64,17 @@ def labelled(
     run = run.after(states)
     warned = [text for state in states for text in state.warnings]
     warned += bars.warnings if bars is not None else ()
+    stated = {} if bars is None else dict(bars.attributes)
     attributes = {
         **run.attributes,
         **run.fluid_attributes,
         "started": date_and_time(wall_time),
         "wall_time": wall_time,
         "warnings": "\n".join(warned),
-        **run.attributes_after(states),
-        **({} if bars is None else bars.attributes),
+        **stated,
+        **run.attributes_after(states, stated),
     }
+    attributes.pop(JUMP_TIME_ERRORS, None)  # the events have them
     recorded = [run.recorded_state(state) for state in states]
     errors = None if bars is None else bars.values
     return to_dataset(recorded, run.field_axis(states), attributes, errors)

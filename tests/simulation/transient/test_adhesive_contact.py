@@ -349,3 +349,37 @@ def test_range_left_out_is_the_limit_of_short_ranges():
             errors=False,
         )
     assert found.attrs["pull_off_force"] == close_to(1.5 * FORCE, rel=0.06)
+
+
+@pytest.mark.slow
+def test_errors_of_jumps_and_pull_off_are_stated_and_hold_against_finer_cells():
+    def cycled(cells, errors):
+        return vc.simulate(
+            *(SPHERE, GEL, cycle(0.2), grid(cells), [0.0, 1.0, 2.0]),
+            adhesion=adhesion(),
+            errors=errors,
+            fields="none",
+        ).attrs
+
+    coarse, fine = cycled(28, errors=True), cycled(56, errors=False)
+    assert "jump_time_errors" not in coarse
+    errors = np.array(coarse["event_time_errors"])
+    assert (np.abs(np.subtract(coarse["event_times"], fine["event_times"])) <= errors).all()
+    assert (errors < 0.02).all()
+    for name in ("pull_off_force", "pull_off_time"):
+        assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"]
+
+
+@pytest.mark.slow
+def test_condition_of_a_program_keeps_its_error_where_bodies_adhere():
+    speed = f"{DEPTH * 1e6:.9f} um/s"
+    program = vc.LoadProgram(
+        f"move at {speed} for 0.3 s; retract at {speed} until force reaches {-FORCE * 1e6:.9f} uN"
+    )
+    found = vc.simulate(
+        *(SPHERE, GEL, program, grid(32), np.linspace(0.0, 4.0, 9)),
+        adhesion=adhesion(),
+        fields="none",
+    )
+    (error,) = np.atleast_1d(found.attrs["event_time_errors"])
+    assert 0 < error < 0.1

@@ -37,7 +37,11 @@ from viscontact.runs.directory.netcdf_layout import (
 )
 from viscontact.runs.directory.write_guard import WriteGuard
 from viscontact.simulation.accuracy.error_bars import ErrorBars
-from viscontact.simulation.transient.provenance import contact_event_attributes, date_and_time
+from viscontact.simulation.transient.provenance import (
+    JUMP_TIME_ERRORS,
+    contact_event_attributes,
+    date_and_time,
+)
 
 #: Rows of scalars that wait in memory at most.
 WAITING = 4096
@@ -280,7 +284,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         own = self._contents.attributes
         events = contact_event_attributes(self._events, own) if self._has_events else {}
         return {
-            **own,
+            **{name: value for name, value in own.items() if name != JUMP_TIME_ERRORS},
             **events,
             "complete": np.int32(self._complete),
             "warnings": "\n".join(self._warnings),

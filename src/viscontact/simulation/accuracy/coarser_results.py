@@ -55,6 +55,8 @@ class CoarserResult:
     segment_ends: Floats = field(default_factory=lambda: np.zeros(0))
     #: Largest pull [N] and its time [s] of the bodies that it pulls off each other.
     pull_off: tuple[float, float] = (math.nan, math.nan)
+    #: Kinds and times [s] of its jumps into contact and losses of it.
+    contact_events: tuple[tuple[str, float], ...] = ()
 
     def at(self, instants: Floats, *, segment_ends: Floats) -> CoarserResult:
         """The result at instants of the original run, without those that are NaN [s]."""
@@ -84,6 +86,7 @@ class ObservedStates:
         self._end_cells = cells_at_end(run.open_gap)
         self._states: list[ContactState] = []
         self._pull_off = math.nan, math.nan
+        self._contact_events: list[tuple[str, float]] = []
         self._ends: list[tuple[float, float]] = []
         self._at_end: list[bool] = []
         self._bends: list[tuple[float, float]] = []
@@ -102,6 +105,7 @@ class ObservedStates:
         run, pressure = self._run, state.pressure
         self._states.append(state.without_fields())
         for event in state.events:
+            self._contact_events.append((event.kind, event.time))
             if event.kind == "pull_off" and not event.pull <= self._pull_off[0]:
                 self._pull_off = event.pull, event.pull_time
         self._ends.append(self._end_cells.pressures(pressure))
@@ -131,6 +135,7 @@ class ObservedStates:
             np.array(self._rises, dtype=bool).reshape(-1, 2),
             self._is_sharp,
             pull_off=self._pull_off,
+            contact_events=tuple(self._contact_events),
         )
 
     def _examine_body(self, state: ContactState) -> None:

@@ -164,7 +164,7 @@ def error_bars_from(
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
-    attributes = pull_off_errors(run, found) or event_errors(run, ends)
+    attributes = event_errors(run, ends) | pull_off_errors(run, found)
     return ErrorBars(values, warnings, attributes)
 
 

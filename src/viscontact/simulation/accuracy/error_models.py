@@ -107,9 +107,12 @@ _SHIFT = ErrorModel(2.0, 1.5, of_time_error=0.5)
 _STICK = ErrorModel(1.0, 0.8, of_time_error=0.5)
 _FRICTION_HEAT = ErrorModel(1.5, 0.7, of_time_error=0.5)
 
-#: Least pressure, and the pull-off force by the coarser grids alone.
+#: Least pressure, and pull-off by the coarser grids alone, with the parts of force and time that
+#: reading it off steps of 2 % of the force may miss: where the pull is largest it hardly changes.
+#: Calibrated on round and oval bodies of all laws, on 28 to 44 cells.
 _PULL = ErrorModel(2.0, 2.0, of_time_error=0.5)
-PULL_OFF = ErrorModel(2.0, 2.0)
+PULL_OFF = ErrorModel(2.0, 3.0)
+PULL_OFF_READING = (2e-3, 8e-3)
 
 #: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
 #: except at the rim, which lies between cells.

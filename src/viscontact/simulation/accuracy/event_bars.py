@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import MixedHistory
+from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
-from viscontact.simulation.accuracy.error_models import INSTANTS, PULL_OFF
+from viscontact.simulation.accuracy.error_models import (
+    INSTANTS,
+    PULL_OFF,
+    PULL_OFF_READING,
+)
 from viscontact.simulation.accuracy.least_bars import TINY
 from viscontact.simulation.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
-from viscontact.simulation.transient.provenance import event_attributes
+from viscontact.simulation.transient.provenance import JUMP_TIME_ERRORS, event_attributes
 from viscontact.simulation.transient.setup import RunSetup
 
 
@@ -54,19 +62,39 @@ def with_least_errors(
     return np.where(np.isnan(errors), errors, np.fmax.accumulate(raised))
 
 
-def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, float]:
-    """Errors of pull-off force [N] and time [s] as attributes; NaN where a coarser run has none."""
+def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, Any]:
+    """Errors of pull-off force [N] and time, and of jumps [s], as attributes.
+
+    NaN, or no times of jumps, where coarser runs have others.
+    """
     if run.law is None:
         return {}
-    grids = [each for each in results if not each.divides_steps]
+    read = np.abs(np.mean([each.pull_off for each in results], axis=0)) * PULL_OFF_READING
+    force, time = _from_grids(results, lambda each: each.pull_off) + read
+    shortest = SHORTEST_ADHESIVE_STEP * run.problem.end
+    found = {"pull_off_force_error": float(force), "pull_off_time_error": float(time)}
+    kinds = {tuple(kind for kind, _ in each.contact_events) for each in results}
+    if len(kinds) != 1:
+        return found
+    jumps = _from_grids(results, lambda each: [time for _, time in each.contact_events])
+    return found | {JUMP_TIME_ERRORS: (jumps + shortest).tolist()}
+
+
+def _from_grids(
+    results: list[CoarserResult], values_of: Callable[[CoarserResult], Sequence[float]]
+) -> Floats:
+    """Errors of some values that the coarser runs have once each."""
     # The run's own values are not among them: the coarser grids tell how far it is off, too.
-    rows = np.array([each.pull_off for each in grids]).T.reshape(2, -1, 1)
+    grids = [each for each in results if not each.divides_steps]
+    rows = np.array([values_of(each) for each in grids], dtype=float)
+    by_steps = np.zeros(rows.shape[1:])
+    for divided in (each for each in results if each.divides_steps):
+        for grid, row in zip(grids, rows, strict=True):
+            if grid.spacing == divided.spacing:
+                by_steps = DIVIDED_STEP_FACTOR * np.abs(row - np.array(values_of(divided)))
     spacings = tuple(each.spacing for each in grids)
-    shown = np.isfinite(rows).all(axis=(0, 1))
-    force, time = (
-        float(PULL_OFF.of(RefinementLevels(spacings, row, np.zeros(1), shown))[0]) for row in rows
-    )
-    return {"pull_off_force_error": force, "pull_off_time_error": time}
+    levels = RefinementLevels(spacings, rows, by_steps, np.isfinite(rows).all(axis=0))
+    return np.asarray(PULL_OFF.of(levels) + np.nan_to_num(by_steps))
 
 
 def event_errors(run: RunSetup, errors: Floats) -> dict[str, str | list[float]]:

@@ -24,6 +24,10 @@ def date_and_time(ago: float = 0.0) -> str:
     return moment.isoformat(timespec="seconds")
 
 
+#: Errors of the times of jumps, which the attributes of events take over [s].
+JUMP_TIME_ERRORS = "jump_time_errors"
+
+
 def run_attributes(run: RunSetup) -> dict[str, Any]:
     """Return the attributes that every result of a run carries."""
     load = run.problem.load
@@ -78,8 +82,10 @@ def contact_event_attributes(
         strict=True,
     )
     rows = [(time, error, line, "condition", unknown, unknown) for time, error, line in program]
-    for event in events:
-        row = (event.time, math.nan, _event_line(event), event.kind, event.force, event.approach)
+    stated = list(described.get(JUMP_TIME_ERRORS, ()))
+    errors = stated if len(stated) == len(events) else [math.nan] * len(events)
+    for event, error in zip(events, errors, strict=True):
+        row = (event.time, error, _event_line(event), event.kind, event.force, event.approach)
         rows.append(row)
     rows.sort(key=lambda row: row[0])
     return {
