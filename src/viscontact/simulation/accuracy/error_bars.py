@@ -70,9 +70,6 @@ ERRORS_KEPT = (
 #: is the least of coarser grids, which may miss cells at the rim.
 ONE_SPOT = 0.7
 
-#: Factor of the errors of a run of a single instant, where none next to it show what they may be.
-SINGLE_INSTANT = 1.2
-
 #: Scalars that are exactly zero without contact.
 ZERO_WITHOUT_CONTACT = (
     *("force", "contact_area", "contact_length", "contact_width"),
@@ -280,8 +277,6 @@ def _quotient(error: Floats, scale: Floats) -> Floats:
 def _largest_nearby(relative: Floats, part: float) -> Floats:
     """Largest error at an instant and, in part, at the ones next to it; in full where unknown."""
     known = between_known(relative)
-    if relative.size == 1:
-        return SINGLE_INSTANT * relative
     nearby = moving_maximum(known, 1)
     return np.where(np.isnan(relative), nearby, np.fmax(known, part * nearby))
 

@@ -61,12 +61,8 @@ LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.06
 #: Least error of the rim in cells, in the mean and of an extent, where a contact on a creeping body
 #: has begun to recede: neither the pressure beside its rim nor the gap is as far from it. Within a
 #: cell of their largest contact, most after a quarter of it, balls err by 0.02 in the mean of the
-#: rim, at worst by 0.07, r^9 bodies by 0.07 after three cells; the extent of a rounded punch by 0.3
-#: where its contact grows again.
-RECEDING_RIM_CELLS, RECEDING_EXTENT_CELLS, LARGEST_RIM_ERROR_AT = 0.032, 0.1, 0.25
-
-#: Cells by which a contact has receded from where these errors are no larger than others.
-RECEDED_CELLS = 6.0
+#: rim, at worst by 0.07; the extent of a rounded punch by 0.3 where its contact grows again.
+RECEDING_RIM_CELLS, RECEDING_EXTENT_CELLS, LARGEST_RIM_ERROR_AT = 0.028, 0.1, 0.25
 
 #: How many times as large they are at the instant at which a contact is smallest, and at the next:
 #: it has begun to grow again, and the gap over the surface that it has just left is almost zero.
@@ -290,7 +286,7 @@ def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
 
 
 def _just_receding(run: RunSetup, history: History) -> Floats:
-    """1 where a contact on a creeping body has receded by part of a cell, 0 from some cells on."""
+    """1 where a contact on a creeping body has receded by part of a cell, 0 from one cell on."""
     area, largest = history["contact_area"], np.maximum.accumulate(history["contact_area"])
     if run.problem.surface.creep.is_elastic or not run.problem.motion.stands:
         return np.zeros(len(area))
@@ -299,8 +295,8 @@ def _just_receding(run: RunSetup, history: History) -> Floats:
     ways = parts * cells_of_breadth(run, history) / 4
     # A contact that grows again does so over the surface that it has just left.
     changes = np.diff(area)
-    grows_again = np.append(False, changes > 0) & (ways < RECEDED_CELLS)
-    faded = np.where(grows_again, 1.0, np.maximum(1 - ways / RECEDED_CELLS, 0.0))
+    grows_again = np.append(False, changes > 0) & (ways < 1)
+    faded = np.where(grows_again, 1.0, np.maximum(1 - ways, 0.0))
     receding = moving_maximum(np.minimum(ways / LARGEST_RIM_ERROR_AT, 1.0) * faded)
     smallest = np.append(False, changes < 0) & np.append(changes > 0, False)
     smallest[1:] |= smallest[:-1]
