@@ -35,7 +35,7 @@ ARRAYS_OF_TRENDS = 2.375
 
 #: Arrays of the whole grid under friction: pairs of tractions, of their reference, trend and start,
 #: of slip and of the next state, and single ones; and those of each term of the law.
-ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.0, 2.0
+ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.5, 2.0
 
 #: Arrays of the operators and the search on the block of the contact, 62 a cell there, where it is
 #: half of the grid; of a quarter of it with both symmetries.
