@@ -108,11 +108,11 @@ def test_every_material_that_creeps_is_a_power_law_or_a_series() -> None:
 
 
 @pytest.mark.parametrize("name", ELASTIC)
-def test_an_elastic_constant_that_is_a_tenth_wrong_is_found_by_the_points(name: str) -> None:
+def test_an_elastic_constant_that_is_a_fifth_wrong_is_found_by_the_points(name: str) -> None:
     law, [other] = shipped_material(name).law, library.entry(name).points
-    for factor in (0.9, 1.1):
+    for factor in (0.8, 1.2):
         slipped = vc.Elastic(factor * float(law.relaxation(0.0)))
-        assert np.abs(other.of_law(slipped) / other.values - 1).max() > 0.02
+        assert np.abs(other.of_law(slipped) / other.values - 1).max() > other.tolerance
 
 
 @pytest.mark.parametrize("name", CREEPING)

@@ -1,4 +1,4 @@
-"""Where an adhesive contact lies: Tabor numbers, limits of the range, and data of the law."""
+"""Limits of adhesive contact: Tabor numbers, ranges, and data of the law."""
 
 from __future__ import annotations
 

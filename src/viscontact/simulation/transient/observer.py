@@ -120,10 +120,7 @@ class Observer:
         moved |= self._run.problem.clock_scalars(step.time)
         if self._run.law is not None:
             moved |= adhesion_scalars(self._run, solution)
-        spring = self._run.problem.load.stage_stiffness
-        if spring is not None:
-            deflected = float(solution.motion[0] + solution.resultants[0] / spring)
-            moved["stage_position"] = deflected if point.approach is None else point.approach
+        moved |= self._stage_of(point, solution)
         # The surface takes up the work of the load and that of the motion.
         self._work -= 0.0 if self._held else self._motion.added
         self._cycles.record_work(step, self._work + self._motion.work)
@@ -150,6 +147,14 @@ class Observer:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before = solution
         return state
+
+    def _stage_of(self, point: LoadPoint, solution: StepSolution) -> dict[str, float]:
+        """Position of the stage that holds the body by a spring [m]; none without one."""
+        spring = self._run.problem.load.stage_stiffness
+        if spring is None:
+            return {}
+        deflected = float(solution.motion[0] + solution.resultants[0] / spring)
+        return {"stage_position": deflected if point.approach is None else point.approach}
 
     def warn(self, found: Mapping[str, str]) -> None:
         """Take further warnings of a step, by kind."""

@@ -70,7 +70,7 @@ def shift_constraints(
     if symmetry is not None:  # what does not act is zero
         free &= symmetry.modes
     forces = np.array([0.0 if force is None else force for force in point.forces])
-    there = np.array([0.0 if motion is None else motion for motion in motions])
+    there = np.array([motion or 0.0 for motion in motions])
     change = np.where(free, 0.0, there - motion_before)
     arm = max(run.grid.size) / 4
     return ShiftConstraints(free, np.where(free, forces, 0.0), change, arm)
