@@ -66,7 +66,7 @@ _AREA = ErrorModel(
     of_spots=ErrorModel(1.0, 1.5),
     steep=ErrorModel(1.0, 0.6),
     of_left_out=0.2,
-    of_neighbours=0.6,
+    of_neighbours=0.8,
 )
 _PEAK = ErrorModel(
     *(2.0, 1.7),
@@ -74,7 +74,6 @@ _PEAK = ErrorModel(
     of_spots=ErrorModel(2.0, 4.0),
     of_time_error=0.8,
     of_left_out=0.8,
-    of_neighbours=0.9,
 )
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
@@ -91,7 +90,7 @@ _EXTENT = ErrorModel(
     *(2.0, 1.05),
     steep=ErrorModel(1.0, 0.6),
     of_left_out=0.2,
-    of_neighbours=0.4,
+    of_neighbours=0.5,
 )
 
 #: Ends of the segments of a load program.
