@@ -352,6 +352,7 @@ def test_range_left_out_is_the_limit_of_short_ranges():
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:only .* cells lie across the largest contact")
 def test_errors_of_jumps_and_pull_off_are_stated_and_hold_against_finer_cells():
     def cycled(cells, errors):
         return vc.simulate(
@@ -361,11 +362,13 @@ def test_errors_of_jumps_and_pull_off_are_stated_and_hold_against_finer_cells():
             fields="none",
         ).attrs
 
-    coarse, fine = cycled(28, errors=True), cycled(56, errors=False)
+    coarser, coarse, fine = (cycled(cells, errors=cells == 28) for cells in (12, 28, 56))
     assert "jump_time_errors" not in coarse
     errors = np.array(coarse["event_time_errors"])
     assert (np.abs(np.subtract(coarse["event_times"], fine["event_times"])) <= errors).all()
-    assert (errors < 0.02).all()
+    # Cells 2.3 times as large change more than the error of second order that is left: bars are
+    # several times that error, as those of families of bodies require, but less than this change.
+    assert (errors < np.abs(np.subtract(coarse["event_times"], coarser["event_times"]))).all()
     for name in ("pull_off_force", "pull_off_time"):
         assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"]
 
