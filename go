@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Run a task of the project: `./go demo`, `./go test` (on Windows: `py go demo`).
 
-The first call creates `.venv` from `requirements.lock`, where every file is pinned by its hash:
-with uv if it is on the path, otherwise with Python's venv and pip. Later calls need no network.
+The first call creates `.venv` from `requirements.lock`; for `demo` and `viscontact` from the part
+of it that computes and draws, `requirements-demo.lock`. Every file is pinned there by its hash.
+It uses uv if that is on the path, otherwise Python's venv and pip. Later calls need no network.
 This script uses the standard library only, so Python and git are sufficient.
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,11 +20,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 LOCK = ROOT / "requirements.lock"
+DEMO_LOCK = ROOT / "requirements-demo.lock"  # the part of it that computes and draws
 VENV = ROOT / ".venv"
 STAMP = VENV / "go-stamp"  # written last: without it the environment is incomplete
 LOG = VENV / "go-setup.log"
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 OLDEST = (3, 11)
+AT_ONCE = 8  # packages between two lines about what is left
 # Parts of the messages of pip and uv about missing network access.
 OFFLINE = ("dns error", "connection", "name resolution", "unreachable", "timed out", "retries")
 
@@ -42,6 +46,12 @@ def demo(args: list[str]) -> int:
 def viscontact(args: list[str]) -> int:
     """Run any command of viscontact: ./go viscontact run my.yaml."""
     return run(["-m", "viscontact", *args], Path.cwd())
+
+
+def setup(args: list[str]) -> int:
+    """Install all that the tasks and the commands of viscontact use, and nothing else."""
+    print(f"go: all packages are in {VENV}")
+    return 0
 
 
 def test(args: list[str]) -> int:
@@ -128,15 +138,17 @@ def compatibility(args: list[str]) -> int:
 
 
 def lock(args: list[str]) -> int:
-    """Update requirements.lock from pyproject.toml (`--upgrade`: to the newest versions)."""
-    # Ignore the configuration of this machine: the lock contains public files only.
+    """Update both locks from pyproject.toml (`--upgrade`: to the newest versions)."""
+    # Ignore the configuration of this machine: the locks contain public files only.
     for name in [n for n in os.environ if n.startswith(("UV_INDEX", "UV_DEFAULT", "UV_FIND"))]:
         del os.environ[name]
     options = "--no-config --universal --generate-hashes --no-emit-index-url --no-annotate --quiet"
-    wanted = f"--python-version {OLDEST[0]}.{OLDEST[1]} --extra all --extra dev"
-    written = ["--custom-compile-command", "./go lock", "--output-file", LOCK.name]
-    uv = ["-m", "uv", "pip", "compile", "pyproject.toml"]
-    return run([*uv, *options.split(), *wanted.split(), *written, *args])
+    wanted = f"--python-version {OLDEST[0]}.{OLDEST[1]} --group build"
+    written = ["--custom-compile-command", "./go lock", "--output-file"]
+    uv = ["-m", "uv", "pip", "compile", "pyproject.toml", *options.split(), *wanted.split()]
+    status = run([*uv, "--extra", "all", "--extra", "dev", *written, LOCK.name, *args])
+    extras = ["--extra", "plot", "--extra", "fast", "--constraint", LOCK.name]
+    return status or run([*uv, *extras, *written, DEMO_LOCK.name, *args])
 
 
 #: Choice of versions by `./go compatibility`, in options of uv.
@@ -172,6 +184,7 @@ BENCHMARKS = {
 TASKS = {
     "demo": demo,
     "viscontact": viscontact,
+    "setup": setup,
     "test": test,
     "lint": lint,
     "docs": docs,
@@ -181,22 +194,28 @@ TASKS = {
     "lock": lock,
 }
 
+#: Tasks for which the packages of the demo are enough.
+COMPUTING = ("demo", "viscontact")
+
 
 # --- environment ------------------------------------------------------------------------------
 
 
-def fingerprint() -> str:
+def fingerprint(lock: Path) -> str:
     """Return a hash of the inputs of the environment: lock, project file and path of the clone."""
-    contents = [LOCK.read_bytes(), (ROOT / "pyproject.toml").read_bytes(), str(ROOT).encode()]
+    contents = [lock.read_bytes(), (ROOT / "pyproject.toml").read_bytes(), str(ROOT).encode()]
     return hashlib.sha256(b"\0".join(contents)).hexdigest()
 
 
-def is_ready() -> bool:
-    """Return whether the environment is complete and up to date."""
-    return PYTHON.exists() and STAMP.exists() and STAMP.read_text() == fingerprint()
+def is_ready(task: str) -> bool:
+    """Return whether the environment has all that a task needs, up to date."""
+    if not (PYTHON.exists() and STAMP.exists()):
+        return False
+    enough = [LOCK, DEMO_LOCK] if task in COMPUTING else [LOCK]
+    return STAMP.read_text() in map(fingerprint, enough)
 
 
-def set_up() -> None:
+def set_up(lock: Path) -> None:
     """Create the environment, or update it; an incomplete one is created again."""
     uv = shutil.which("uv")
     make = [uv, "venv", "--python", sys.executable] if uv else [sys.executable, "-m", "venv"]
@@ -204,18 +223,37 @@ def set_up() -> None:
     into = ["--python", str(PYTHON)] if uv else []
     # An environment created by uv has no pip, so it cannot be updated without uv.
     updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
-    doing = "bringing .venv up to date" if updating else "setting up .venv, once, about a minute"
-    print(f"go: {doing}", flush=True)
+    packages = locked_packages(lock)
+    doing = "bringing .venv up to date" if updating else "setting up .venv, once"
+    print(f"go: {doing}: {len(packages)} packages", flush=True)
     STAMP.unlink(missing_ok=True)
     if not updating:
         if VENV.exists():
             shutil.rmtree(VENV)
         install(make, [str(VENV)])
-    # A package that is built here would use files without hashes.
-    install(pip, [*into, "--only-binary", ":all:", "--require-hashes", "-r", str(LOCK)])
+    part = VENV / "go-part.txt"
+    for done in range(0, len(packages), AT_ONCE):
+        part.write_text("".join(packages[done : done + AT_ONCE]), encoding="utf-8")
+        # A package that is built here would use files without hashes. The lock is complete. Byte
+        # code of all modules would take a fifth of the space; what is imported is compiled then.
+        wheels = ["--only-binary", ":all:", "--no-deps", "--no-compile"]
+        install(pip, [*into, *wheels, "--require-hashes", "-r", str(part)])
+        show_left(max(len(packages) - done - AT_ONCE, 0))
     # The build backend is in the lock; an isolated build would download another one.
     install(pip, [*into, "--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
-    STAMP.write_text(fingerprint())
+    STAMP.write_text(fingerprint(lock))
+
+
+def locked_packages(lock: Path) -> list[str]:
+    """Return the entries of a lock, each a version with its hashes; those of other systems, too."""
+    return re.split(r"^(?=\w)", lock.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+
+
+def show_left(left: int) -> None:
+    """Say how many packages are still to be installed, on one line of a terminal."""
+    end = "\r" if left and sys.stdout.isatty() else "\n"
+    said = f"{left} packages left" if left else "all packages are installed"
+    print(f"go: {said:28}", end=end, flush=True)
 
 
 def install(command: list[str], args: list[str]) -> None:
@@ -277,8 +315,8 @@ def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> in
                 f"needs Python {OLDEST[0]}.{OLDEST[1]} or newer, and this is"
                 f" {version[0]}.{version[1]} ({sys.executable}); try: python3.13 go {argv[0]}"
             )
-        if not is_ready():
-            set_up()
+        if not is_ready(argv[0]):
+            set_up(DEMO_LOCK if argv[0] in COMPUTING else LOCK)
         return TASKS[argv[0]](argv[1:])
     except (TaskError, OSError) as error:
         print(f"go: {error}", file=sys.stderr)

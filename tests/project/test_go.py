@@ -8,17 +8,22 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterable
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+from packaging.requirements import Requirement
 
 import viscontact
 
 ROOT = Path(__file__).parents[2]
 LOCK = (ROOT / "requirements.lock").read_text(encoding="utf-8")
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+DEMO_LOCK = (ROOT / "requirements-demo.lock").read_text(encoding="utf-8")
+SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = SETTINGS["project"]
+BUILD = [*SETTINGS["build-system"]["requires"], *SETTINGS["dependency-groups"]["build"]]
 
 
 @pytest.fixture
@@ -30,9 +35,10 @@ def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     assert spec is not None
     module = importlib.util.module_from_spec(spec)
     loader.exec_module(module)
-    (tmp_path / "requirements.lock").write_text("numpy==2.2")
+    (tmp_path / "requirements.lock").write_text("numpy==2.2\nruff==0.9\n")
+    (tmp_path / "requirements-demo.lock").write_text("numpy==2.2\n")
     (tmp_path / "pyproject.toml").write_text("")
-    for name in ("LOCK", "VENV", "STAMP", "LOG", "PYTHON"):
+    for name in ("LOCK", "DEMO_LOCK", "VENV", "STAMP", "LOG", "PYTHON"):
         inside = getattr(module, name).relative_to(module.ROOT)
         monkeypatch.setattr(module, name, tmp_path / inside)
     monkeypatch.setattr(module, "ROOT", tmp_path)
@@ -46,6 +52,7 @@ class Installer:
     def __init__(self, go: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go = go
         self.asked: list[str] = []  # the commands, but for making the empty environment
+        self.packages: list[str] = []  # entries of locks
         self.environments = 0
         self.interrupted = False
         monkeypatch.setattr(go, "install", self)
@@ -59,6 +66,8 @@ class Installer:
                 self.go.PYTHON.with_name("pip").touch()
             return
         self.asked.append(" ".join([*command, *args]))
+        if "-r" in args:
+            self.packages += Path(args[args.index("-r") + 1]).read_text().split()
         if self.interrupted:
             raise KeyboardInterrupt
 
@@ -94,7 +103,40 @@ def test_an_interrupted_set_up_is_begun_again(
     installer.interrupted = False
     assert go.main(["test"]) == 0
     assert installer.environments == 2
-    assert go.is_ready()
+    assert go.is_ready("test")
+
+
+def test_the_demo_installs_its_part_and_the_first_other_task_the_rest(
+    go: ModuleType, installer: Installer
+) -> None:
+    assert go.main(["demo"]) == 0
+    assert installer.packages == ["numpy==2.2"]
+    assert go.is_ready("demo")
+    assert go.is_ready("viscontact")
+    assert not go.is_ready("test")
+    assert go.main(["test"]) == 0
+    assert (installer.environments, installer.packages[1:]) == (1, ["numpy==2.2", "ruff==0.9"])
+    asked = len(installer.asked)
+    assert go.main(["demo"]) == 0  # a larger environment has it
+    assert len(installer.asked) == asked
+
+
+def test_a_set_up_says_how_much_is_left(
+    go: ModuleType, installer: Installer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    entries = [f"p{number}==1 \\\n    --hash=sha256:ab\n" for number in range(2 * go.AT_ONCE + 1)]
+    (go.ROOT / "requirements.lock").write_text(f"# by ./go lock\n{''.join(entries)}")
+    go.main(["setup"])
+    said = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    assert said[:4] == [
+        f"go: setting up .venv, once: {len(entries)} packages",
+        f"go: {go.AT_ONCE + 1} packages left",
+        "go: 1 packages left",
+        "go: all packages are installed",
+    ]
+    assert [each for each in installer.packages if "==" in each] == [
+        each.split()[0] for each in entries
+    ]
 
 
 def test_an_environment_of_uv_is_made_anew_where_uv_is_gone(
@@ -117,7 +159,7 @@ def test_a_moved_clone_is_set_up_anew(go: ModuleType, installer: Installer) -> N
     go.ROOT = go.ROOT / "elsewhere"
     go.ROOT.mkdir()
     (go.ROOT / "pyproject.toml").write_text("")
-    assert not go.is_ready()
+    assert not go.is_ready("test")
 
 
 @pytest.mark.parametrize("uv", [None, "/bin/uv"])
@@ -127,7 +169,9 @@ def test_only_hashed_files_are_installed(
     monkeypatch.setattr(go.shutil, "which", lambda name: uv)
     go.main(["test"])
     packages, project = installer.asked
-    assert "--only-binary :all: --require-hashes" in packages  # nothing is built of other files
+    assert (
+        "--only-binary :all: --no-deps --no-compile --require-hashes" in packages
+    )  # nothing is built of other files
     assert "--no-deps --no-build-isolation --editable" in project
 
 
@@ -158,14 +202,16 @@ def test_an_unknown_task_is_refused_with_the_known_ones(
     go: ModuleType, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert go.main(["tset"]) == 2
-    assert "no task 'tset'; there are demo, viscontact, test, lint" in capsys.readouterr().err
+    assert (
+        "no task 'tset'; there are demo, viscontact, setup, test, lint" in capsys.readouterr().err
+    )
 
 
 def test_without_a_task_all_are_listed() -> None:
     said = subprocess.run(
         [sys.executable, ROOT / "go"], text=True, capture_output=True, check=True
     ).stdout
-    for task in ("demo", "viscontact", "test", "lint", "docs", "bench", "build", "lock"):
+    for task in ("demo", "viscontact", "setup", "test", "lint", "docs", "bench", "build", "lock"):
         assert re.search(rf"^  {task} +\w", said, re.MULTILINE)
 
 
@@ -247,9 +293,13 @@ def canonical(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def locked() -> list[str]:
+def locked(lock: str = LOCK) -> list[str]:
     """Return the lock's entries, each a version with its marker and hashes."""
-    return re.split(r"^(?=[a-z0-9])", LOCK, flags=re.MULTILINE)[1:]
+    return re.split(r"^(?=[a-z0-9])", lock, flags=re.MULTILINE)[1:]
+
+
+def names(needs: Iterable[str]) -> set[str]:
+    return {canonical(re.split(r"[\[<>=!~; ]", need)[0]) for need in needs} - {"viscontact"}
 
 
 def test_every_locked_file_has_its_hash_and_no_address() -> None:
@@ -262,11 +312,19 @@ def test_every_locked_file_has_its_hash_and_no_address() -> None:
 
 
 def test_the_lock_covers_every_dependency_and_the_build_backend() -> None:
-    system = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]
-    wanted = [*PROJECT["dependencies"], *system["requires"]]
+    wanted = [*PROJECT["dependencies"], *BUILD]
     wanted += [need for extra in PROJECT["optional-dependencies"].values() for need in extra]
-    names = {canonical(re.split(r"[\[<>=!~; ]", need)[0]) for need in wanted} - {"viscontact"}
-    assert names <= {canonical(entry.split("==")[0]) for entry in locked()}
+    assert names(wanted) <= names(locked())
+
+
+def test_the_lock_of_the_demo_is_a_small_part_of_the_lock_that_computes_and_draws() -> None:
+    extras = PROJECT["optional-dependencies"]
+    wanted = [*PROJECT["dependencies"], *BUILD, *extras["plot"], *extras["fast"]]
+    assert names(wanted) <= names(locked(DEMO_LOCK))
+    assert set(locked(DEMO_LOCK)) <= set(locked())
+    here = [Requirement(entry.split("\\")[0]).marker for entry in locked(DEMO_LOCK)]
+    # Beside viscontact itself; pip and what it brings come with Python.
+    assert 40 < sum(marker is None or marker.evaluate() for marker in here) < 50
 
 
 # --- what is built and checked ------------------------------------------------------------------
