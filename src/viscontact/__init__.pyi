@@ -78,6 +78,7 @@ from .bodies.loads import tangential_harmonic as tangential_harmonic
 from .bodies.loads import tangential_ramp as tangential_ramp
 from .bodies.loads import tangential_step as tangential_step
 from .bodies.loads import triangle as triangle
+from .bodies.materials.body import Body as Body
 from .bodies.materials.cards import Card as Card
 from .bodies.materials.cards import read_abaqus as read_abaqus
 from .bodies.materials.cards import read_ansys as read_ansys

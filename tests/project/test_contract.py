@@ -692,11 +692,11 @@ def test_centre_of_a_grid_is_shown_and_recorded_only_if_given() -> None:
         ({"load": 0.1}, "load must be of kind LoadHistory, got 0.1; write vc.step"),
         (
             {"material": vc.Elastic(1.0)},
-            r"kind Material or Layered, .*; write vc.Material",
+            r"kind Material or Layered or Body, .*; write vc.Material",
         ),
         (
             {"material": "pmma-paper"},
-            r"kind Material or Layered, .*; write vc.shipped",
+            r"kind Material or Layered or Body, .*; write vc.shipped",
         ),
         ({"load": vc.step(0.1, eccentricity_x=0.02)}, "load.eccentricity_x: the force acts at"),
     ],

@@ -143,7 +143,7 @@ def _case(document: Document, found: CaseFile) -> Case:
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
-        material=found.material.built,
+        material=found.material.body,
         load=found.history(),
         motion=motion,
         temperature=found.temperature.built if found.temperature else None,
@@ -155,7 +155,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         leakage=found.leakage.settings if found.leakage else {},
         grid=found.grid.build() if found.grid else None,
         times=times,
-        indenter_material=of_indenter.built if of_indenter else None,
+        indenter_material=of_indenter.body if of_indenter else None,
         tolerance=found.tolerance,
         kept=KeptFields(fields),
         errors=found.output.errors,

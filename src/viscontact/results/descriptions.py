@@ -16,6 +16,7 @@ from viscontact.bodies import indenters, laws, loads
 from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layer, Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.materials.measured_range import MeasuredRange
@@ -23,7 +24,10 @@ from viscontact.units.axis_flags import AxisFlags
 
 _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
 
-_OTHERS = (Material, MeasuredRange, Layer, Layered, Grid, AutomaticGrid, Friction, Adhesion)
+_OTHERS = (
+    *(Material, MeasuredRange, Layer, Layered, Body),
+    *(Grid, AutomaticGrid, Friction, Adhesion),
+)
 
 #: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
 STORED_CLASSES: dict[str, Any] = {

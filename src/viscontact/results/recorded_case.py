@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import TemperatureHistory
 from viscontact.bodies.loads.clock import TIME, Clock
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered, at_temperature
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.surface import clock_of
@@ -32,11 +33,18 @@ def is_layered(results: Result, part: str = "material") -> bool:
     return (case_of(results).get(part) or {}).get("type") == "Layered"
 
 
+def has_ends(results: Result, part: str = "material") -> bool:
+    """True if a body of a result, the pressed one or the half-space, ends along x."""
+    return (case_of(results).get(part) or {}).get("type") == "Body"
+
+
 def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float:
     """Poisson's ratio [-] of a half-space that a result belongs to."""
     if part == "indenter_material" and case_of(results).get(part) is None:
         raise ValueError("stresses: the indenter of this result is rigid")
     material = case_of(results).get(part) or {}
+    if material.get("type") == "Body":
+        material = material["material"]
     ratio = material.get("poisson_ratio")
     if ratio is not None:
         return float(ratio)
@@ -116,7 +124,7 @@ def recorded_clock(results: xr.Dataset, part: str, figure: str) -> Clock:
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
     """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
 
-    Bodies at a constant temperature have the laws of the run.
+    Bodies at a constant temperature have the laws of the run, and no ends: see `has_ends`.
     """
     # A large part is recorded by its fingerprint only.
     if "case" not in results.attrs:
@@ -129,6 +137,8 @@ def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
         found = None if described is None else rebuild(described)
     except ValueError as error:
         raise ValueError(f"{figure}: cannot rebuild the {part}: {error}") from error
+    if isinstance(found, Body):
+        found = found.material
     if not isinstance(found, Material | Layered):
         return found
     temperature = recorded_temperature(results)

@@ -25,6 +25,7 @@ from viscontact.mechanics.problem.series_body import ANY_TIMES, span_of
 from viscontact.mechanics.problem.stress_history import StressHistory, stress_history
 from viscontact.mechanics.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
+    has_ends,
     is_layered,
     recorded_clock,
     recorded_grid,
@@ -178,6 +179,11 @@ def stress_source(
         raise ValueError(
             "stresses need stored pressure; run again with fields stored ('output: fields: all' "
             "or a list of instants in the case file, fields= in Python)"
+        )
+    if has_ends(results, body):
+        raise ValueError(
+            "stresses: this body ends along x, and stresses near an end are not available; for "
+            "those far from it, run the same case with a material without ends"
         )
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from viscontact.bodies.laws import Elastic, Law
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, finite, store
@@ -168,6 +169,11 @@ def named_parts(body: Material | Layered) -> dict[str, Material]:
         return {"": body}
     names = [f"layer {number}" for number in range(1, len(body.layers) + 1)]
     return dict(zip([*names, "base"], body.materials, strict=False))
+
+
+def without_ends(body: Material | Layered | Body) -> Material | Layered:
+    """Body that goes on where one ends."""
+    return body.material if isinstance(body, Body) else body
 
 
 def materials_of(body: Material | Layered) -> tuple[Material, ...]:

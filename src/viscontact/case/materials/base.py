@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from viscontact.bodies.laws import Law, Shift
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.material import Material
 from viscontact.case.materials.ageing import Ageing
 from viscontact.case.materials.measured_range import MeasuredRange
@@ -21,6 +22,7 @@ from viscontact.case.quantities import (
     Duration,
     Length,
     Modulus,
+    Offset,
     PoissonRatio,
     Section,
     Temperature,
@@ -36,6 +38,11 @@ def _not_over_time(given: Any) -> Any:
         )
         raise PydanticCustomError("quantity", "{why}", {"why": why})
     return given
+
+
+#: Kind of an end of a body, and of both its ends.
+End = Literal["free", "held"]
+Ends = End | Annotated[list[End | None], Field(min_length=2, max_length=2)]
 
 
 class Medium(Section):
@@ -59,6 +66,18 @@ class Medium(Section):
         description="of the body; it is computed as a half-space, and a run whose contact has a "
         "half width beyond a fifth of it warns",
     )
+    length: Length | None = Field(
+        default=None, description="of the body along x, where it ends; goes with ends"
+    )
+    centre: Offset | None = Field(
+        default=None, description="position x of the middle of a body that ends; 0 when left out"
+    )
+    ends: Ends | None = Field(
+        default=None,
+        description="planes across x at which the body ends: free of stress, or held by a wall "
+        "without friction; one kind for both, or a pair, that at -x first, where null goes on",
+        examples=[["free", None]],
+    )
     temperature: Annotated[Temperature, BeforeValidator(_not_over_time)] | None = Field(
         default=None,
         description="temperature of this material, to which its shift takes the law; write that of "
@@ -79,6 +98,14 @@ class Medium(Section):
     @abstractmethod
     def build_law(self) -> Law:
         """Return the creep law."""
+
+    @cached_property
+    def body(self) -> Material | Body:
+        """The material, or a body of it that ends."""
+        if self.ends is None:
+            return self.built
+        assert self.length is not None  # refused otherwise
+        return Body(self.built, self.length, centre=self.centre or 0.0, ends=self.ends)
 
     @cached_property
     def built(self) -> Material:
@@ -155,5 +182,13 @@ class Medium(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Medium:
         # Errors of the constructors are reported among the problems of the file.
-        _ = self.built
+        if (self.ends is None) != (self.length is None):
+            missing = "length" if self.length is None else "ends"
+            raise ValueError(
+                f"{missing}: a body that ends has a length and ends; write e.g. 'length: 60 mm' "
+                "and 'ends: [free, null]', or leave both out"
+            )
+        if self.centre is not None and self.ends is None:
+            raise ValueError("centre: is that of a body that ends; give 'length' and 'ends', too")
+        _ = self.body
         return self

@@ -30,6 +30,12 @@ from viscontact.case.section_choice import ChosenBy
 RIGID: Literal["rigid"] = "rigid"
 
 
+def _without_ends(material: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
+    if not isinstance(material, str) and material.ends is not None:
+        raise ValueError("ends: layers that end are not available; leave ends and length out")
+    return material
+
+
 def _deep(base: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
     if not isinstance(base, str) and base.thickness is not None:
         raise ValueError(
@@ -69,7 +75,9 @@ class Layer(Section):
     """A layer: its thickness and its material."""
 
     thickness: Length = Field(description="of the layer")
-    material: Annotated[AnyMaterial, AfterValidator(_without_thickness)] = Field(
+    material: Annotated[
+        AnyMaterial, AfterValidator(_without_thickness), AfterValidator(_without_ends)
+    ] = Field(
         description="material of the layer; its keys may be written beside thickness as well",
         examples=["epdm-70-25c"],
     )
@@ -141,7 +149,9 @@ class Layers(Section):
     layers: list[Annotated[Layer, BeforeValidator(_nested), _OrBeside()]] = Field(
         min_length=1, description="from the surface down; where they are given, law may be left out"
     )
-    base: Annotated[AnyMaterial, _OrRigid(), AfterValidator(_deep)] = Field(
+    base: Annotated[
+        AnyMaterial, _OrRigid(), AfterValidator(_deep), AfterValidator(_without_ends)
+    ] = Field(
         description="material beneath the layers, infinitely deep, or rigid", examples=[RIGID]
     )
     bonded: Annotated[bool | list[bool], BeforeValidator(_one_or_each)] = Field(
@@ -150,9 +160,14 @@ class Layers(Section):
         "friction; one for all, or one for each",
     )
 
+    @property
+    def body(self) -> Layered:
+        """The body."""
+        return self.built
+
     @cached_property
     def built(self) -> Layered:
-        """The body."""
+        """The layers on their base."""
         return Layered(
             [each.built for each in self.layers],
             RIGID if isinstance(self.base, str) else self.base.built,

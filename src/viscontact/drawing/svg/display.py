@@ -10,6 +10,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Law
 from viscontact.bodies.loads import LoadHistory, TemperatureHistory
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.cards import Card as MaterialCard
 from viscontact.bodies.materials.layers import Layered, creeping_laws
 from viscontact.bodies.materials.material import Material
@@ -174,6 +175,8 @@ def _draw(obj: Displayable) -> list[Element]:
         laws = creeping_laws(obj)
         panels = [each for name, law in laws.items() for each in law_panels(law, name)]
         return [stack_drawing(obj), *map(panel_drawing, panels)]
+    if isinstance(obj, Body):
+        return _draw(obj.material)
     if isinstance(obj, Law | Material):
         return [*map(panel_drawing, law_panels(obj if isinstance(obj, Law) else obj.law))]
     if isinstance(obj, TemperatureHistory):

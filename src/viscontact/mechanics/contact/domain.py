@@ -12,10 +12,12 @@ from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.cell_fields import is_even
+from viscontact.mechanics.contact.ended_operators import EndedOperators
 from viscontact.mechanics.contact.patch import Patch, PatchOperators
 from viscontact.mechanics.contact.response_parts import Operator, PartOperators
 from viscontact.mechanics.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.ended_half_space import EndedResponse, has_ends, parts_of
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import (
     layered_influence_table,
@@ -76,7 +78,7 @@ class ContactDomain:
         #: Parts of a response that changes, with their weights; tables, and operators on blocks.
         self._parts: dict[SurfaceResponse, float] = {}
         self._tables: dict[SurfaceResponse, Floats] = {}
-        self._of_blocks: dict[tuple[int, int], PartOperators] = {}
+        self._of_blocks: dict[tuple[tuple[int, int], int], PartOperators] = {}
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
@@ -85,12 +87,13 @@ class ContactDomain:
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
+        self._ended = EndedOperators(grid, mirrored, self._transforms, self.team)
         self._build_operators()
         self._last = self.whole
 
     def _build_operators(self) -> None:
         self._coefficients = self._influence_table()
-        self.convolution = self._operator(self.shape, single=False)
+        self.convolution = self._operator(self.shape, 0, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
 
     def set_response(self, parts: tuple[SurfaceResponse, ...], weights: tuple[float, ...]) -> None:
@@ -106,11 +109,13 @@ class ContactDomain:
 
     def unit_displacement(self, pressure: Floats, response: SurfaceResponse) -> Floats:
         """Displacement per unit compliance [Pa m] under a part of the response, of all cells."""
-        return self._on_block(self.shape).operator(response).apply(pressure)
+        return self._on_block(self.shape, 0).operator(response).apply(pressure)
 
     def coarser(self) -> ContactDomain | None:
         """Same region in cells twice as long and wide; None if their number is odd or too small."""
         if any(cells % 2 or cells < 2 * MIN_CELLS for cells in self.shape):
+            return None
+        if not self._ended.can_be_halved(self.response):
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
@@ -212,8 +217,8 @@ class ContactDomain:
             _arm(shape, grid),
             PatchOperators(
                 shape,
-                lambda: self._operator(shape, single=True),
-                lambda: self._preconditioner(shape),
+                lambda: self._operator(shape, rows.start, single=True),
+                lambda: self._preconditioner(shape, rows.start),
             ),
             self._plane(rows, columns),
         )
@@ -223,6 +228,8 @@ class ContactDomain:
         # Empty for a periodic one, and for a half-space, where those of each block are soon
         # computed.
         if all(self.grid.periodic) or self._parts or self._is_plain(self.response):
+            return np.empty((0, 0))
+        if has_ends(self.response):  # its operators have tables of their own
             return np.empty((0, 0))
         if not isinstance(self.response, SummedResponse):
             return self._table_of(self.response)
@@ -239,10 +246,10 @@ class ContactDomain:
         """True of a half-space without a period, whose coefficients have a closed form."""
         return response is HALF_SPACE and not any(self.grid.periodic)
 
-    def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
-        """Approximate inverse of the convolution over a block of cells."""
+    def _preconditioner(self, shape: tuple[int, int], start: int) -> Preconditioner:
+        """Approximate inverse of the convolution over a block of cells from a row on."""
         if self._parts:
-            return self._on_block(shape).preconditioner(self._parts)
+            return self._on_block(shape, start).preconditioner(self._parts)
         return self._preconditioner_of(self.response, shape)
 
     def _preconditioner_of(
@@ -258,11 +265,25 @@ class ContactDomain:
         along = x - self._axis[0], y - self._axis[1]
         return RigidPlane(*along, self.grid.cell_size, self.mirrored, self.team)
 
-    def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
-        """Convolution over a block of cells, or over the whole period."""
+    def _operator(self, shape: tuple[int, int], start: int, *, single: bool) -> Operator:
+        """Convolution over a block of cells from a row on, or over the whole period."""
+        if has_ends(self.response):
+            parts = dict(parts_of(self.response))
+            return self._on_block(shape, start).sum_of(parts, single=single)
         if self._parts:
-            return self._on_block(shape).sum_of(self._parts, single=single)
+            return self._on_block(shape, start).sum_of(self._parts, single=single)
         return self._operator_of(self.response, self._coefficients, shape, single=single)
+
+    def _part_operator(
+        self, part: SurfaceResponse, shape: tuple[int, int], start: int, *, single: bool
+    ) -> Operator:
+        """Operator of a response over a block of cells from a row on."""
+        if isinstance(part, EndedResponse):
+            return self._ended.operator(part, shape, start, single=single)
+        if has_ends(part):
+            return self._on_block(shape, start).sum_of(dict(parts_of(part)), single=single)
+        table = np.empty((0, 0)) if all(self.grid.periodic) else self._table_of(part)
+        return self._operator_of(part, table, shape, single=single)
 
     def _operator_of(
         self,
@@ -292,23 +313,20 @@ class ContactDomain:
             **options,
         )
 
-    def _on_block(self, shape: tuple[int, int]) -> PartOperators:
+    def _on_block(self, shape: tuple[int, int], start: int) -> PartOperators:
         """Operators of parts of the response over a block of cells; the last blocks' are kept."""
-        if shape not in self._of_blocks:
-            last = self._last.shape
+        block = shape, start if has_ends(self.response) else 0
+        if block not in self._of_blocks:
             self._of_blocks = {
-                each: kept for each, kept in self._of_blocks.items() if each in (self.shape, last)
+                each: kept
+                for each, kept in self._of_blocks.items()
+                if each[0] in (self.shape, self._last.shape)
             }
-            self._of_blocks[shape] = PartOperators(
-                lambda part, single: self._operator_of(
-                    part,
-                    np.empty((0, 0)) if all(self.grid.periodic) else self._table_of(part),
-                    shape,
-                    single=single,
-                ),
+            self._of_blocks[block] = PartOperators(
+                lambda part, single: self._part_operator(part, shape, start, single=single),
                 lambda: self._preconditioner_of(HALF_SPACE, shape),
             )
-        return self._of_blocks[shape]
+        return self._of_blocks[block]
 
 
 def _coefficients(grid: Grid, response: SurfaceResponse) -> Floats:

@@ -166,7 +166,7 @@ class MovingDomain(ContactDomain):
         offsets = cell * np.arange(1 - count, count, dtype=np.float64)
         return offsets[:, None] if self.axis == 0 else offsets[None, :]
 
-    def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:
+    def _preconditioner(self, shape: tuple[int, int], start: int) -> MovingPreconditioner:
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
         terms, cell_size = self._relative, self.grid.cell_size
         return MovingPreconditioner(shape, cell_size, terms, self.axis, **options)
@@ -177,7 +177,7 @@ class MovingDomain(ContactDomain):
         whole = self.surface.with_elastic(self._at_rest, self._added)
         return whole.scaled(1 / self.compliance).terms
 
-    def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
+    def _operator(self, shape: tuple[int, int], start: int, *, single: bool) -> Operator:
         if all(self.grid.periodic):
             factors = [(response, moving.at_wave_number) for response, moving in self._relative]
             return self._filter_operator(factors, shape, single=single)

@@ -9,12 +9,17 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.ended_half_space import (
+    EndedConvolution,
+    WeightedOperators,
+    has_ends,
+)
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner
 from viscontact.mechanics.halfspace.spectral import PeriodicConvolution
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 
 #: Maps pressure to unit displacement on cells.
-Operator = Convolution | PeriodicConvolution
+Operator = Convolution | PeriodicConvolution | EndedConvolution | WeightedOperators
 
 
 class PartOperators:
@@ -31,6 +36,7 @@ class PartOperators:
         """Take the makers of an operator, in single precision or not, and of a preconditioner."""
         self._operator_of, self._make_preconditioner = operator_of, preconditioner
         self._operators: dict[SurfaceResponse, Any] = {}
+        self._with_ends: dict[tuple[SurfaceResponse, bool], Any] = {}
         self._single: Any = None
         self._preconditioner: Preconditioner | None = None
         self._ratios: dict[SurfaceResponse, Floats] = {}
@@ -44,6 +50,8 @@ class PartOperators:
 
     def sum_of(self, weights: Mapping[SurfaceResponse, float], *, single: bool) -> Operator:
         """Operator of the weighted sum of parts."""
+        if any(map(has_ends, weights)):
+            return self._sum_with_ends(weights, single=single)
         parts: list[Any] = [self.operator(part) for part in weights]
         like: Any = parts[0]
         if single:
@@ -52,6 +60,16 @@ class PartOperators:
             like = self._single
         found: Operator = like.sum_of(parts, list(weights.values()))
         return found
+
+    def _sum_with_ends(
+        self, weights: Mapping[SurfaceResponse, float], *, single: bool
+    ) -> WeightedOperators:
+        """Operator of a sum in which a half-space ends: parts have no symbols to be added."""
+        for part in weights:
+            if (part, single) not in self._with_ends:
+                self._with_ends[part, single] = self._operator_of(part, single)
+        operators = [self._with_ends[part, single] for part in weights]
+        return WeightedOperators(operators, list(weights.values()))
 
     def preconditioner(self, weights: Mapping[SurfaceResponse, float]) -> Preconditioner:
         """Approximate inverse of that operator."""

@@ -14,7 +14,7 @@ from viscontact.backend.transforms import Transforms, fast_length
 def padded_length(cells: int, *, unpadded: bool, exact: bool) -> int:
     """Transform length for a number of cells of the whole block; exactly these in a period."""
     if exact:
-        return cells
+        return cells // 2 if unpadded else cells
     return fast_length(cells if unpadded else 2 * cells - 1)
 
 

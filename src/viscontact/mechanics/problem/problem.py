@@ -23,8 +23,14 @@ from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.bodies.materials.layers import Layered, at_temperature, materials_of
+from viscontact.bodies.materials.layers import (
+    Layered,
+    at_temperature,
+    materials_of,
+    without_ends,
+)
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface as MeasuredSurface
 from viscontact.bodies.surfaces import indenter_of
@@ -110,11 +116,11 @@ class Problem:
     """Contact problem in the terms of the user; derived quantities are computed once."""
 
     indenter: Indenter  # shape of the pressed body; a measured one becomes a `HeightMap`
-    material: Material | Layered  # of the half-space, or layers
+    material: Material | Layered | Body  # of the half-space, or layers, or with ends
     load: LoadHistory  # a `LoadProgram` becomes a `MixedHistory` that awaits its events
     grid: Grid | AutomaticGrid | None = None
     times: ArrayLike | AdaptiveTimes | CellTimes | None = None  # of the states [s]
-    indenter_material: Material | Layered | None = None  # None for a rigid body
+    indenter_material: Material | Layered | Body | None = None  # None for a rigid body
     tolerance: float = 1e-6  # relative error of gap and balances at every step [-]
     kept: KeptFields = ALL_FIELDS
     step_ratio: float = 1.0  # longest step, relative to the longest one that the load allows [-]
@@ -130,10 +136,10 @@ class Problem:
         object.__setattr__(self, "load", as_history(self.load))
         for name, kinds, optional in (
             ("indenter", (Indenter,), False),
-            ("material", (Material, Layered), False),
+            ("material", (Material, Layered, Body), False),
             ("load", (LoadHistory,), False),
             ("grid", (Grid, AutomaticGrid), True),
-            ("indenter_material", (Material, Layered), True),
+            ("indenter_material", (Material, Layered, Body), True),
             ("motion", (Motion,), False),
             ("temperature", (TemperatureHistory,), True),
             ("friction", (Friction,), True),
@@ -159,14 +165,30 @@ class Problem:
     @cached_property
     def bodies(self) -> tuple[Material | Layered, ...]:
         """The bodies that deform, at a constant temperature with the laws that they have there."""
-        both = (self.material, self.indenter_material)
-        given = tuple(body for body in both if body is not None)
+        given = tuple(map(without_ends, self._given_bodies))
         if self.temperature is None or not self.temperature.is_constant:
             return given
         try:
             return tuple(at_temperature(body, self.temperature.range[0]) for body in given)
         except ValueError as error:
             raise ValueError(f"temperature: {error}") from None
+
+    @property
+    def _given_bodies(self) -> tuple[Material | Layered | Body, ...]:
+        """The bodies that deform, as they are given."""
+        both = (self.material, self.indenter_material)
+        return tuple(body for body in both if body is not None)
+
+    @property
+    def ends(self) -> tuple[Body | None, ...]:
+        """Each body that deforms, if it ends."""
+        return tuple(body if isinstance(body, Body) else None for body in self._given_bodies)
+
+    @property
+    def ended_bodies(self) -> dict[str, Body]:
+        """Bodies that end, by the names of their arguments."""
+        both = {"material": self.material, "indenter_material": self.indenter_material}
+        return {name: body for name, body in both.items() if isinstance(body, Body)}
 
     @property
     def constant_temperature(self) -> float | None:
@@ -205,7 +227,7 @@ class Problem:
         is_over_time = self.motion.stands or any(self.motion.moves)
         if self.temperature is None or not self.temperature.is_constant or not is_over_time:
             return self.clocks
-        given = (body for body in (self.material, self.indenter_material) if body is not None)
+        given = map(without_ends, self._given_bodies)
         shifts = (next((m.shift for m in materials_of(body) if m.shift), None) for body in given)
         return tuple(
             clock if shift is None else ReducedTime(self.temperature, shift)
@@ -245,7 +267,7 @@ class Problem:
         """Creep functions and frequency responses of both bodies together."""
         has_times = self.times is not None or self._steps_over_cells
         if not (has_times and any(map(follows_span, self.bodies))):
-            return surface_of(self.bodies, clocks=self.clocks)
+            return surface_of(self.bodies, clocks=self.clocks, ends=self.ends)
         # The times of interest may follow from the law, and the law's series from these times.
         functions = [
             on_clock(part.contact_compliance(), clock)
@@ -254,7 +276,7 @@ class Problem:
         ]
         instants = self._instants(together(functions))
         spans = [span_of(clock.reduced(instants)) for clock in self.clocks]
-        return surface_of(self.bodies, spans, self.clocks)
+        return surface_of(self.bodies, spans, self.clocks, self.ends)
 
     @property
     def compliance(self) -> ContactCompliance:
@@ -263,7 +285,14 @@ class Problem:
 
     def has_datum(self, grid: Grid) -> bool:
         """True if the approach has a datum on a grid: not of a line contact on a half-space."""
-        return grid.has_datum or self.surface.is_supported
+        # Between two ends a body is a plate below a depth of its length, so it has none, either.
+        lines = not grid.has_datum or self.ends_twice
+        return not lines or self.surface.is_supported
+
+    @property
+    def ends_twice(self) -> bool:
+        """True if a body ends on both sides."""
+        return any(None not in body.ends for body in self.ended_bodies.values())
 
     @property
     def automatic_grid(self) -> AutomaticGrid | None:
@@ -377,8 +406,7 @@ class Problem:
     @property
     def given_materials(self) -> tuple[tuple[Material, ...], ...]:
         """Materials of each body that deforms, as they are given: at their own temperatures."""
-        both = (self.material, self.indenter_material)
-        return tuple(materials_of(body) for body in both if body is not None)
+        return tuple(materials_of(without_ends(body)) for body in self._given_bodies)
 
     @property
     def thinnest_layer(self) -> float:

@@ -16,6 +16,7 @@ from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperature
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.kept_fields import KeptFields
@@ -27,11 +28,11 @@ class Arguments(TypedDict):
     """Arguments of a contact problem, as users give them: see `simulate`."""
 
     indenter: Indenter
-    material: Material | Layered
+    material: Material | Layered | Body
     load: LoadHistory | LoadProgram
     grid: NotRequired[Grid | AutomaticGrid | None]
     times: NotRequired[ArrayLike | AdaptiveTimes | None]
-    indenter_material: NotRequired[Material | Layered | None]
+    indenter_material: NotRequired[Material | Layered | Body | None]
     tolerance: NotRequired[float]
     fields: NotRequired[str | Sequence[float]]
     motion: NotRequired[Motion | None]

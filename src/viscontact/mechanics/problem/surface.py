@@ -21,15 +21,17 @@ import numpy as np
 
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.compliance import (
     ClockedCompliance,
     ContactCompliance,
     LawCompliance,
     SeriesCompliance,
 )
-from viscontact.bodies.materials.layers import Layered, materials_of
+from viscontact.bodies.materials.layers import Layered, materials_of, without_ends
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     SummedResponse,
@@ -117,17 +119,22 @@ def surface_of(
     bodies: Sequence[Material | Layered],
     spans: Sequence[Span] = (),
     clocks: Sequence[Clock] = (),
+    ends: Sequence[Body | None] = (),
 ) -> SurfaceTerms:
-    """Terms of the bodies that deform, with the clock of each.
+    """Terms of the bodies that deform, with the clock and the ends of each.
 
     `spans` are those of the reduced times of interest [s], one for each body.
     """
     terms: list[SurfaceTerm] = []
     error = 0.0
-    for body, span, clock in zip(
-        bodies, spans or repeat(ANY_TIMES), clocks or repeat(TIME), strict=False
+    for body, span, clock, ended in zip(
+        bodies,
+        spans or repeat(ANY_TIMES),
+        clocks or repeat(TIME),
+        ends or repeat(None),
+        strict=False,
     ):
-        for new in terms_of(body, span):
+        for new in terms_of(body, span) if ended is None else [_ended_term(ended, body)]:
             clocked = SurfaceTerm(on_clock(new.compliance, clock), new.response)
             terms = _with_term(terms, clocked)
         if isinstance(body, Layered) and as_elastic(body) is None:
@@ -203,6 +210,15 @@ def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTe
     return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
 
 
+def _ended_term(body: Body, material: Material | Layered) -> SurfaceTerm:
+    """Term of a body that ends, with its material at the temperature of the run."""
+    assert isinstance(material, Material)
+    assert material.poisson_ratio is not None  # refused otherwise
+    before, after = (kind == "free" for kind in body.ends)
+    response = EndedResponse(material.poisson_ratio, body.planes, (before, after))
+    return SurfaceTerm(material.contact_compliance(), response)
+
+
 def as_elastic(body: Layered) -> ElasticStack | None:
     """Elastic stack of the ratios of the moduli, None if they or Poisson's ratios vary in time."""
     top, *others = (contact_creep(material) for material in body.materials)
@@ -237,14 +253,16 @@ def follows_span(body: Material | Layered) -> bool:
     return not all(is_series(material.law) for material in body.materials)
 
 
-def creeps(body: Material | Layered) -> bool:
+def creeps(body: Material | Layered | Body) -> bool:
     """True for a body of which a part creeps or flows.
 
     >>> from viscontact.bodies.laws import Maxwell
     >>> creeps(Material(Maxwell(1e6, 1e6), poisson_ratio=0.5))
     True
     """
-    return not all(part.contact_compliance().is_elastic for part in materials_of(body))
+    return not all(
+        part.contact_compliance().is_elastic for part in materials_of(without_ends(body))
+    )
 
 
 def contact_creep(material: Material) -> ContactCompliance | None:

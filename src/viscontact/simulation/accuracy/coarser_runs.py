@@ -16,7 +16,11 @@ from viscontact.mechanics.contact.cell_fields import is_even
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps, step_ends
-from viscontact.simulation.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.simulation.accuracy.coarser_grids import (
+    aligned_spacing,
+    coarser_grid,
+    with_borders_at,
+)
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, ObservedStates
 from viscontact.simulation.accuracy.coarser_steps import (
     fewer_times,
@@ -30,6 +34,7 @@ from viscontact.simulation.accuracy.moving_levels import (
     fewer_moving_times,
     whole_cell_ratios,
 )
+from viscontact.simulation.checks.ends import planes_of
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.segments_so_far import EventError
 from viscontact.simulation.transient.setup import RunSetup, plan_history
@@ -228,7 +233,9 @@ def _coarser_run(
 ) -> CoarserRun:
     if (motion := run.problem.motion).stands:
         ratios = aligned_spacing(run, spacing, parity)
-        coarse = run.on(coarser_grid(run.grid, ratios, parity))
+        grid = coarser_grid(run.grid, ratios, parity)
+        planes = planes_of(run.problem)
+        coarse = run.on(with_borders_at(grid, planes) if planes else grid)
     else:
         ratios = spacing, spacing
         grid = coarser_grid(run.grid, ratios, parity)

@@ -31,6 +31,7 @@ class Geometry:
     grid: Grid
     thickness: float = math.inf  # of the thinner body, inf if not given [m]
     indenter_gives: bool = False  # the indenter is deformable, so a half-space as well
+    planes: tuple[float, ...] = ()  # at which bodies end, and no pressure is singular: x [m]
     covers: tuple[Cover, ...] = ()
     is_supported: bool = False  # the bodies lie on rigid bases, so that any approach has a datum
     predicted: bool = False  # the contact is an estimate made before the run
@@ -79,8 +80,24 @@ class Geometry:
         for axis, repeats in enumerate(self.grid.periodic):
             width = [(int(axis == 0),) * 2, (int(axis == 1),) * 2]
             around = np.pad(around, width, mode="wrap" if repeats else "edge")
-        beside = np.logical_or.reduce(end_cells(around, 1), axis=0)
-        return np.asarray(beside[1:-1, 1:-1])
+        ends_along, ends_across = end_cells(around, 1)[:, 1:-1, 1:-1]
+        for plane in self.planes:
+            ends_along[np.abs(self.grid.x - plane) < self.grid.cell_size[0]] = False
+        return np.asarray(ends_along | ends_across)
+
+    @cached_property
+    def beyond(self) -> Bools:
+        """Cells beyond the outline of the indenter, but not beyond the ends of the other body."""
+        outside = np.isinf(self.open_gap)
+        first, *others = np.flatnonzero(~outside.all(axis=1)) if self.planes else (0,)
+        last = others[-1] if others else first
+        for plane in self.planes:
+            x, near = self.grid.x, self.grid.cell_size[0]
+            if abs(x[first] - plane) < near:
+                outside[:first] = False
+            if abs(x[last] - plane) < near:
+                outside[last + 1 :] = False
+        return outside
 
     @cached_property
     def sampling(self) -> Sampling:

@@ -108,7 +108,8 @@ def body_warnings(
         warnings["end_face"] = (
             "the indenter ends within a half width of the contact, but its material is modelled as "
             "a half-space that continues there; a free end face is more compliant, so that the "
-            "pressure near it is lower and the approach larger"
+            "pressure near it is lower and the approach larger; give its ends ('ends: free' in a "
+            "case, vc.Body in Python)"
         )
     if half_width > THIN_BODY * geometry.thickness:
         warnings["thickness"] = (
@@ -164,7 +165,10 @@ def _end_warnings(
         return {}
     _, reach = geometry.verbs
     what = f"the contact {reach} {AT_THE_END}"
-    support = "The half-space continues beyond it; a body that ends there too is more compliant"
+    support = (
+        "The half-space continues beyond it; a body that ends there too is more compliant: give "
+        "its ends ('ends: free' in a case, vc.Body in Python)"
+    )
     if has_limit or at_end < pressure.max():
         return {
             "end": (
@@ -216,7 +220,7 @@ def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
             return False
         near = math.ceil(distance / geometry.grid.cell_size[axis])
         block.append(_lines_around(touched, near, geometry.grid, axis))
-    return bool(np.isinf(geometry.open_gap[np.ix_(*block)]).any())
+    return bool(geometry.beyond[np.ix_(*block)].any())
 
 
 def _lines_around(lines: Integers, distance: int, grid: Grid, axis: int) -> Integers:

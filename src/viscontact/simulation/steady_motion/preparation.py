@@ -10,6 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.simulation.checks.ends import check_ends
 from viscontact.simulation.checks.periodicity import check_endless, check_period
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
@@ -80,6 +81,7 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     library = fastest_transforms()
     transforms = transforms_by(library, threads)
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
+    check_ends(contact)
     check_endless(contact.indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):
         supported = contact.surface.is_supported

@@ -12,6 +12,7 @@ from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperatu
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.checks.ends import check_ends
 from viscontact.simulation.checks.periodicity import check_endless
 from viscontact.simulation.meshing.mesh_choice import choose_mesh
 
@@ -88,5 +89,6 @@ def auto_grid(  # noqa: PLR0913
         temperature=as_temperature(temperature),
         adhesion=adhesion,
     )
+    check_ends(problem)
     check_endless(indenter, None)
     return choose_mesh(problem, end).grid

@@ -14,6 +14,7 @@ from viscontact.bodies.loads import MixedHistory
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactEvent
 from viscontact.results.descriptions import describe
+from viscontact.simulation.checks.ends import error_of_ends
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
@@ -43,6 +44,7 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "memory_error": max(plan.error for plan in run.plans),
         "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
+        **({"ends_error": error_of_ends(run.problem)} if run.problem.ended_bodies else {}),
         **events,
     }
 

@@ -14,6 +14,7 @@ from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
+from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
@@ -22,6 +23,7 @@ from viscontact.mechanics.problem.shear_terms import shear_terms
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 from viscontact.simulation.checks.adhesion import check_adhesion, law_on
+from viscontact.simulation.checks.ends import check_ends, check_grid_of_ends
 from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
 from viscontact.simulation.checks.motion import check_motion, check_path
 from viscontact.simulation.checks.periodicity import check_endless, check_period
@@ -112,9 +114,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     """Check a contact problem and complete it to a run; ValueError for invalid input."""
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
-    check_motion(problem)
-    check_friction(problem)
-    check_adhesion(problem)
+    _check_parts(problem)
     # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
@@ -133,6 +133,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
         if problem.awaits_cells:
             problem = replace(problem, times=problem.times_at_cells(grid.cell_size))
     # 3. Refuse what the body on this grid cannot carry.
+    check_grid_of_ends(problem, grid)
     open_gap = _gap_on(problem, grid)
     about_body = _about_body(problem, grid)
     check_touch(problem, points[0][1], open_gap, about_body)
@@ -147,6 +148,14 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     transforms = fastest_transforms()
     terms = tuple(others)
     return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), transforms, terms, law)
+
+
+def _check_parts(problem: Problem) -> None:
+    """Refuse parts of a problem that do not go together."""
+    check_ends(problem)
+    check_motion(problem)
+    check_friction(problem)
+    check_adhesion(problem)
 
 
 def _mesh_over_path(problem: Problem) -> Mesh:
@@ -167,9 +176,14 @@ def _position(problem: Problem, time: float) -> tuple[float, float]:
 
 
 def _body(problem: Problem, grid: Grid) -> Indenter:
-    """The body at the origin, on a grid that repeats itself with its next periods if it moves."""
+    """The body at the origin, on a grid that repeats itself with its next periods if it moves.
+
+    What lies beyond the ends of the bodies is cut off.
+    """
     repeats = any(grid.periodic) and not problem.motion.stands
-    return PeriodicBody(problem.indenter, grid) if repeats else problem.indenter
+    if repeats:
+        return PeriodicBody(problem.indenter, grid)
+    return cut_at(problem.indenter, [body.planes for body in problem.ended_bodies.values()])
 
 
 def _placed(body: Indenter, position: tuple[float, float]) -> Indenter:
@@ -189,7 +203,8 @@ def _gap(indenter: Indenter, grid: Grid) -> Floats:
 def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
     if problem.is_coupled:  # a force along the surface tilts the pressure
         return False, False
-    loads = (problem.load.is_even(0), problem.load.is_even(1))
+    ends_alike = all(body.is_even for body in problem.ended_bodies.values())
+    loads = (ends_alike and problem.load.is_even(0), problem.load.is_even(1))
     if problem.motion.stands:
         return mirrored_axes(grid, open_gap, loads)
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.

@@ -17,6 +17,7 @@ from viscontact.bodies.loads import LoadHistory, LoadProgram
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
@@ -34,12 +35,12 @@ Progress = Callable[[ContactState, int, int], None]
 
 def march(  # noqa: PLR0913
     indenter: Indenter,
-    material: Material | Layered,
+    material: Material | Layered | Body,
     load: LoadHistory | LoadProgram,
     grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
-    indenter_material: Material | Layered | None = None,
+    indenter_material: Material | Layered | Body | None = None,
     tolerance: float = 1e-6,
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,

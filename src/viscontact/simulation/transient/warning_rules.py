@@ -14,6 +14,7 @@ from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, Ti
 from viscontact.simulation.checks.adhesive_limits import zone_warnings
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
+from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
 from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.material import (
     expansion_warnings,
@@ -57,6 +58,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
+    warnings |= datum_of_ends_warnings(problem, undefined)
     warnings |= layer_warnings(problem.thinnest_layer, run.grid.cell_size)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
@@ -85,7 +87,9 @@ def geometry_of(
         open_gap,
         grid,
         thickness=problem.thickness,
-        indenter_gives=problem.indenter_material is not None,
+        indenter_gives=problem.indenter_material is not None
+        and "indenter_material" not in problem.ended_bodies,
+        planes=planes_of(problem),
         covers=covers_of(problem.bodies, problem.end, problem.clocks),
         is_supported=problem.surface.is_supported,
         predicted=predicted,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 
 from viscontact.bodies.loads import MixedHistory
-from viscontact.bodies.materials.layers import Layered, creeping_laws
+from viscontact.bodies.materials.layers import Layered, creeping_laws, without_ends
 from viscontact.bodies.materials.material import Material
 from viscontact.case import Case, CaseError, Parts
 from viscontact.drawing.content.law_curves import curve_times
@@ -131,7 +131,7 @@ def _body(case: Case, what: str) -> Material | Layered:
     material = case.indenter_material if what == "indenter_material" else case.material
     if material is None:
         raise RequestError(422, "the indenter is rigid: there are no curves of its material")
-    return material
+    return without_ends(material)
 
 
 def _curves(body: Material | Layered, end: float | None, width: Width | None) -> Figure:

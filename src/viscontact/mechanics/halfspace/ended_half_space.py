@@ -1,0 +1,197 @@
+"""Half-space cut by planes across x: free ends, and frictionless walls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.transforms import Field
+from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.end_correction import EndBasis, EndCorrection, end_basis
+from viscontact.mechanics.halfspace.influence import influence_table
+from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
+from viscontact.mechanics.halfspace.surface_response import (
+    HALF_SPACE,
+    HalfSpaceResponse,
+    SummedResponse,
+    SurfaceResponse,
+)
+
+
+@dataclass(frozen=True)
+class EndedResponse(HalfSpaceResponse):
+    """Half-space that ends at planes across x; far from them it is one without ends."""
+
+    poisson_ratio: float
+    planes: tuple[float | None, float | None]  # at -x and at +x [m]; None: it goes on
+    free: tuple[bool, bool]  # free of stress; otherwise held by a frictionless wall
+
+
+def parts_of(response: SurfaceResponse) -> list[tuple[SurfaceResponse, float]]:
+    """Responses that are no sums, with their weights."""
+    if not isinstance(response, SummedResponse):
+        return [(response, 1.0)]
+    pairs = zip(response.parts, response.weights, strict=True)
+    return [(part, weight * own) for each, weight in pairs for part, own in parts_of(each)]
+
+
+def has_ends(response: SurfaceResponse) -> bool:
+    """True of a half-space that ends, and of a sum with one."""
+    return any(isinstance(part, EndedResponse) for part, _ in parts_of(response))
+
+
+@dataclass(frozen=True, eq=False)
+class EndedRows:
+    """Rows of cells between planes across x, with what all blocks of them share."""
+
+    borders: tuple[int | None, int | None]  # planes in rows from the first row of the domain
+    coefficients: Floats  # [m], of the period of two lengths, or empty for one plane
+    bases: tuple[EndBasis | None, EndBasis | None]  # of the free ends
+    first: int  # first row of the domain within the body
+
+
+def ended_rows(
+    response: EndedResponse,
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    borders: tuple[int | None, int | None],
+) -> EndedRows:
+    """Rows of a domain of a shape that has all columns, with planes at borders of its rows."""
+    before, after = borders
+    begin = max(before or 0, 0)
+    end = shape[0] if after is None else min(after, shape[0])
+    table = np.empty((0, 0))
+    if before is not None and after is not None:
+        # With the datum of a grid that is periodic.
+        period, datum = 2 * (after - before), shape[1] * cell_size[1]
+        table = periodic_layered_table((period, shape[1]), cell_size, HALF_SPACE, datum)
+    ranges = (
+        None if before is None else range(begin - before, end - before),
+        None if after is None else range(after - end, after - begin),
+    )
+    first, last = (
+        end_basis(response.poisson_ratio, rows, cell_size) if rows and is_free else None
+        for rows, is_free in zip(ranges, response.free, strict=True)
+    )
+    return EndedRows(borders, table, (first, last), begin)
+
+
+class Operator(Protocol):
+    """Map of pressure to displacement over compliance."""
+
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
+        """Displacement over compliance [Pa m] under a pressure [Pa]."""
+        ...
+
+
+class EndedConvolution:
+    """Surface displacement of a body that ends at one plane across x, or at two.
+
+    The pressure is even about the planes, which are borders of cells: the mirrored half-space is a
+    convolution by cosine transforms, from a plane on. What free ends add is an `EndCorrection`.
+    Cells beyond a plane are outside the body: their pressure has no effect, and they stay at rest.
+    """
+
+    def __init__(
+        self,
+        ended: EndedRows,
+        block: tuple[slice, slice],
+        cell_size: tuple[float, float],
+        *,
+        mirrored: bool = False,
+        single: bool = False,
+        **options: Any,
+    ) -> None:
+        """Take the rows and columns of a block; `mirrored` keeps half of the columns."""
+        rows, columns = block
+        self.shape = (rows.stop - rows.start, columns.stop - columns.start)
+        before, after = ended.borders
+        begin = rows.start if before is None else max(rows.start, before)
+        end = rows.stop if after is None else min(rows.stop, after)
+        self._inside = slice(begin - rows.start, end - rows.start)
+        # The convolution begins at a plane; between two of them it takes all rows.
+        self._turned = before is None
+        origin, last = (after, begin) if self._turned else (before, end)
+        if before is not None and after is not None:
+            last = after
+        assert origin is not None  # at least one plane is given
+        assert last is not None
+        count = abs(last - origin)
+        start = abs((end if self._turned else begin) - origin)
+        self._rows = slice(start, start + end - begin)
+        ny = self.shape[1] * (1 + mirrored)
+        periodic = bool(ended.coefficients.size)
+        coefficients = (
+            ended.coefficients[:, :ny] if periodic else influence_table((2 * count, ny), cell_size)
+        )
+        self._mirrored = Convolution(
+            coefficients,
+            mirrored=(True, mirrored),
+            periodic=(periodic, False),
+            single=single,
+            **options,
+        )
+        self._padded = (
+            None
+            if count == end - begin
+            else np.zeros((count, self.shape[1]), np.float32 if single else np.float64)
+        )
+        self._corrections = [
+            EndCorrection(
+                basis,
+                _rows_of_basis(basis, slice(begin - ended.first, end - ended.first), side),
+                ny,
+                cell_size,
+                turned=bool(side),
+                mirrored=mirrored,
+                single=single,
+            )
+            for side, basis in enumerate(ended.bases)
+            if basis is not None
+        ]
+
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
+        """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
+        result: Numbers = np.empty(self.shape) if into is None else into
+        inside = pressure[self._inside]
+        found = self._of_mirrored(inside)
+        for correction in self._corrections:
+            found += correction.apply(inside)
+        result[: self._inside.start] = result[self._inside.stop :] = 0.0
+        result[self._inside] = found
+        return result
+
+    def _of_mirrored(self, inside: Field) -> Field:
+        """Displacement of the mirrored half-space within the body."""
+        turn = slice(None, None, -1 if self._turned else 1)
+        if self._padded is None:
+            return self._mirrored.apply(inside[turn])[turn]
+        self._padded[self._rows] = inside[turn]
+        return self._mirrored.apply(self._padded)[self._rows][turn]
+
+
+class WeightedOperators:
+    """Weighted sum of operators on the same block."""
+
+    def __init__(self, operators: Sequence[Operator], weights: Sequence[float]) -> None:
+        self._operators, self._weights = operators, weights
+
+    def apply(self, pressure: Field, into: Field | None = None) -> Field:
+        """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
+        first, *others = zip(self._operators, self._weights, strict=True)
+        total = first[0].apply(pressure, into)
+        if first[1] != 1.0:
+            total *= first[1]
+        for operator, weight in others:
+            total += weight * operator.apply(pressure)
+        return total
+
+
+def _rows_of_basis(basis: EndBasis, rows: slice, side: int) -> slice:
+    """Rows of a basis, counted from its end, of rows of the body."""
+    count = len(basis.basis)
+    return slice(count - rows.stop, count - rows.start) if side else rows

@@ -1,0 +1,139 @@
+"""Displacement of the surface of a body that ends at a plane face free of stress.
+
+The body takes x > 0, the pressure p acts on z = 0, and the face is x = 0. A load on a half-space
+and its mirror image about the plane of the face leave no shear on it, but a normal stress. A load
+on the face that cancels it is mirrored in turn about z = 0, where it leaves no shear and no
+displacement, but a normal stress, and so on: two half-spaces overlap (M. Hetényi, J. Appl. Mech.
+27 (1960) 289). Waves cos(k y) of the load do not mix. With A the map from the load on one face to
+the stress on the other, in X = k x and Z = k z,
+
+    A p~(Z) = 2 ∫ s(X, Z) p~ dX,   s = (X² Z K_2(R)/R² - (1 - 2ν) ∫_Z^∞ K_0(√(X² + t²)) dt) / π,
+
+R² = X² + Z², the sum of all images is p~ = (I - A²)^-1 p. The displacement per compliance is that
+of the mirrored half-space, (2/π) (K_0(|X - X'|) + K_0(X + X')), under p~. Its part under p~ - p is
+
+    g(X, X') = ∫ (2/π) (K_0(|X - X"|) + K_0(X + X")) ((I - A²)^-1 - I)(X", X') dX",
+
+which depends on Poisson's ratio only, is symmetric and positive, and is a short sum of products
+φ_m(X) φ_m(X') for all wave numbers and positions at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import scipy  # its special functions are imported at their first use
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
+
+#: First and last place of the panels, and ratio of the ends of a panel. What a load sends nearer
+#: to the corner than the first place is left out: a part LOWEST / X of the load.
+LOWEST, HIGHEST, RATIO = 1e-13, 25.0, 2.5
+
+#: Panels nearer to the corner than this are not tabulated; nearer places count as this.
+NEAREST = 1e-7
+
+#: Largest entry of g that its products may leave out, relative to the largest one.
+NEGLECTED = 3e-8
+
+
+@dataclass(frozen=True, eq=False)
+class EndFunctions:
+    """Functions φ_m(X) of a free end, with g(X, X') = Σ φ_m(X) φ_m(X')."""
+
+    poisson_ratio: float
+    neglected: float  # largest entry left out of g, over the largest entry [-]
+    asymmetry: float  # |g(X, X') - g(X', X)| before it is made symmetric, likewise [-]
+    _values: scipy.interpolate.CubicSpline  # of ln X
+    _means: scipy.interpolate.CubicSpline  # of ln X: mean of φ from 0 to X
+    _nearest: float
+
+    def at(self, place: Floats) -> Floats:
+        """φ_m at places X >= 0, shape (..., m); zero far from the end."""
+        found = np.zeros((*place.shape, self._values.c.shape[-1]))
+        near = place < HIGHEST
+        found[near] = self._values(np.log(np.maximum(place[near], self._nearest)))
+        return found
+
+    def integral_until(self, place: Floats) -> Floats:
+        """∫ φ_m dX from the end to places X >= 0, shape (..., m)."""
+        inside = np.clip(place, self._nearest, HIGHEST)
+        lengths = np.minimum(place, HIGHEST)
+        return np.asarray(self._means(np.log(inside)) * lengths[..., None])
+
+
+@lru_cache(maxsize=8)
+def end_functions(poisson_ratio: float) -> EndFunctions:
+    """Functions of a free end of a body with a constant Poisson's ratio.
+
+    The end of a body with ν = 0.3 sinks by 0.0866 more than that of the mirrored half-space, under
+    a line load cos(y/x) at the distance x, at half this distance (finite elements: 0.08657):
+
+    >>> functions = end_functions(0.3)
+    >>> print(f"{functions.at(np.array(0.5)) @ functions.at(np.array(1.0)):.4f}")
+    0.0866
+    """
+    panels = LogPanels.over(LOWEST, HIGHEST, RATIO)
+    first = int(np.searchsorted(np.exp(panels.edges), NEAREST)) - 1
+    known = slice(first * NODES, None)
+    near = LogPanels(panels.edges[first:])
+    raw = (_displacement(panels) @ image_density(panels, poisson_ratio))[known, known]
+    # The load that is farther from the corner feels less of what is left out there.
+    g = np.triu(raw) + np.triu(raw, 1).T
+    factors, left = pivoted_cholesky(np.diagonal(g).copy(), lambda k: g[:, k], NEGLECTED)
+    # Nearer than the first node φ counts as constant.
+    before = factors[0] * np.exp(near.edges[0])
+    means = (near.integrals_until(factors) + before) / near.places[:, None]
+    return EndFunctions(
+        poisson_ratio,
+        left / float(g.max()),
+        float(np.abs(raw - raw.T).max() / g.max()),
+        scipy.interpolate.CubicSpline(near.logarithms, factors),
+        scipy.interpolate.CubicSpline(near.logarithms, means),
+        float(near.places[0]),
+    )
+
+
+def image_density(panels: LogPanels, poisson_ratio: float) -> Floats:
+    """(I - A²)^-1 - I at the nodes X, under a unit line load at the nodes X'."""
+    stress = 2 * _stress(panels, poisson_ratio).T * panels.weights
+    both = stress @ stress
+    return np.asarray(np.linalg.solve(np.eye(len(both)) - both, both) / panels.weights)
+
+
+def _stress(panels: LogPanels, poisson_ratio: float) -> Floats:
+    """Stress s on the other face at depths Z (columns) of unit line loads at X (rows)."""
+    along, depth = panels.places[:, None], panels.places
+    distance = np.hypot(along, depth)
+    # ∫_Z^∞ K_0(√(X² + t²)) dt from its value at Z = 0, (π/2) exp(-X), would lose digits far away.
+    below = panels.integrals_until(scipy.special.k0(distance).T).T
+    beyond = panels.weights @ scipy.special.k0(distance).T
+    tail = beyond[:, None] - below
+    radial = along**2 * depth * scipy.special.kv(2, distance) / distance**2
+    return np.asarray((radial - (1 - 2 * poisson_ratio) * tail) / np.pi)
+
+
+def _displacement(panels: LogPanels) -> Floats:
+    """Displacement at the nodes of the mirrored half-space under a density at the nodes."""
+    image = scipy.special.k0(panels.places[:, None] + panels.places) * panels.weights
+    own = panels.weights_of_logarithm(lambda distance: np.asarray(scipy.special.k0(distance)))
+    return np.asarray(2 / np.pi * (own + image))
+
+
+def pivoted_cholesky(
+    diagonal: Floats, column: Callable[[int], Floats], tolerance: float
+) -> tuple[Floats, float]:
+    """Factors F of a positive matrix F F' and the largest entry left out, by greatest pivots."""
+    left, columns = diagonal, np.empty((len(diagonal), 0))
+    largest = float(left.max())
+    while columns.shape[1] < len(left) and left.max() > tolerance * largest:
+        pivot = int(left.argmax())
+        rest = column(pivot) - columns @ columns[pivot]
+        rest /= np.sqrt(rest[pivot])
+        columns = np.column_stack([columns, rest])
+        left = np.maximum(left - rest**2, 0.0)
+    return columns, float(left.max(initial=0.0))

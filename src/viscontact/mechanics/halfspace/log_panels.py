@@ -1,0 +1,105 @@
+"""Gauss's rule on panels of the logarithm, for functions that are smooth over many decades."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss, legvander
+
+from viscontact.backend.arrays import Floats
+
+#: Gauss nodes in each panel.
+NODES = 10
+
+#: Gauss nodes on each part of a panel beside the logarithm of K_0, and ends of these parts: on the
+#: panel that holds it, and on the panels beside, as parts of the length from it to the panel's end.
+SUBNODES = 16
+ON_PANEL, BESIDE = (
+    np.append(0.0, ratio ** np.arange(n)[::-1]) for ratio, n in ((0.15, 12), (0.5, 6))
+)
+
+_T, _W = leggauss(NODES)
+_COEFFICIENTS = np.linalg.inv(legvander(_T, NODES - 1))  # Legendre's, from values at the nodes
+
+
+@dataclass(frozen=True, eq=False)
+class LogPanels:
+    """Panels between `edges` of ln X."""
+
+    edges: Floats
+
+    @classmethod
+    def over(cls, lowest: float, highest: float, ratio: float) -> LogPanels:
+        """Panels from one place to another, with ends in about a ratio."""
+        count = math.ceil(math.log(highest / lowest) / math.log(ratio))
+        return cls(np.linspace(math.log(lowest), math.log(highest), count + 1))
+
+    @cached_property
+    def logarithms(self) -> Floats:
+        """Ln X of the nodes, panel by panel."""
+        middle, half = (self.edges[1:] + self.edges[:-1]) / 2, np.diff(self.edges) / 2
+        return (middle[:, None] + half[:, None] * _T).ravel()
+
+    @cached_property
+    def places(self) -> Floats:
+        """X of the nodes."""
+        return np.exp(self.logarithms)
+
+    @cached_property
+    def weights(self) -> Floats:
+        """Weights of the nodes in an integral over X."""
+        return (np.diff(self.edges)[:, None] / 2 * _W).ravel() * self.places
+
+    def integrals_until(self, values: Floats) -> Floats:
+        """∫ f dX from the first edge to each node, of values at the nodes, shape (nodes, ...)."""
+        panels = (values.T * self.places).T.reshape(len(self.edges) - 1, NODES, -1)
+        half = np.diff(self.edges)[:, None, None] / 2
+        whole = np.einsum("n,pnk->pk", _W, panels) * half[:, 0]
+        before = np.concatenate([np.zeros_like(whole[:1]), np.cumsum(whole, axis=0)[:-1]])
+        inside = np.einsum("mn,pnk->pmk", _PARTIAL, panels) * half
+        return np.asarray((before[:, None] + inside).reshape(values.shape))
+
+    def weights_of_logarithm(self, kernel: Callable[[Floats], Floats]) -> Floats:
+        """Weights of ∫ k(|X - X'|) f(X') dX' at the nodes X, for a kernel with a logarithm at 0."""
+        distance = np.abs(self.places[:, None] - self.places)
+        np.fill_diagonal(distance, 1.0)
+        found = kernel(distance) * self.weights
+        for panel in range(len(self.edges) - 1):
+            for near in range(max(panel - 1, 0), min(panel + 2, len(self.edges) - 1)):
+                columns = slice(near * NODES, (near + 1) * NODES)
+                for row in range(panel * NODES, (panel + 1) * NODES):
+                    found[row, columns] = self._near_weights(kernel, row, near)
+        return found
+
+    def _near_weights(self, kernel: Callable[[Floats], Floats], row: int, panel: int) -> Floats:
+        """Weights of one node, on its own panel or the one beside."""
+        begin, end = self.edges[panel : panel + 2]
+        at = self.logarithms[row]
+        nearest = min(max(at, begin), end)
+        parts = ON_PANEL if nearest == at else BESIDE
+        ends = [nearest + (side - nearest) * parts for side in (begin, end) if side != nearest]
+        low, high = (np.concatenate([each[k : len(each) - 1 + k] for each in ends]) for k in (0, 1))
+        half = np.abs(high - low)[:, None] / 2
+        logarithm = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _SUB_T
+        # Differences of places near to each other, without cancellation.
+        distance = self.places[row] * np.abs(np.expm1(logarithm - at))
+        weights = half * _SUB_W * np.exp(logarithm) * kernel(distance)
+        along = (2 * logarithm - begin - end) / (end - begin)
+        polynomials = legvander(along.ravel(), NODES - 1) @ _COEFFICIENTS
+        return np.asarray(weights.ravel() @ polynomials)
+
+
+def _partial_integrals() -> Floats:
+    """Integrals over [-1, 1] from -1 to each node, of values at the nodes."""
+    half = (_T + 1) / 2
+    points = half[:, None] * (_T + 1) - 1
+    powers = legvander(points, NODES - 1) @ _COEFFICIENTS
+    return np.asarray(half[:, None] * np.einsum("n,mnk->mk", _W, powers))
+
+
+_PARTIAL = _partial_integrals()
+_SUB_T, _SUB_W = leggauss(SUBNODES)

@@ -1,0 +1,98 @@
+"""Checks of bodies that end: what they cannot be computed with, and where the ends lie."""
+
+from __future__ import annotations
+
+from viscontact.bodies.grid import Grid
+from viscontact.mechanics.halfspace.end_correction import ends_error
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.units.formatting import format_quantity
+
+#: Largest distance of an end from a border of cells, in cells.
+ON_BORDER = 1e-6
+
+#: Reason why a body between two ends has no approach.
+NO_DATUM = (
+    "a body that ends on both sides is a plate below a depth of its length, and sinks as the "
+    "logarithm of the depth from which it is measured, so that the approach has no datum"
+)
+
+
+def check_ends(problem: Problem) -> None:
+    """Refuse what bodies that end cannot be computed with, before a grid is known."""
+    for name, body in problem.ended_bodies.items():
+        if "free" in body.ends and None not in body.ends:
+            raise ValueError(
+                f"{name}.ends: a body with a free end and another end is not available, as the "
+                f"ends act on each other, got {list(body.ends)}; if the contact lies at one end, "
+                "give that one only, as ['free', None] in Python, [free, null] in a case"
+            )
+        if not problem.motion.stands:
+            raise ValueError(
+                f"{name}.ends: a body that ends is not available in motion; let the contact "
+                "rest, or give the material without ends"
+            )
+        for other in ("friction", "adhesion"):
+            if getattr(problem, other) is not None:
+                raise ValueError(
+                    f"{name}.ends: {other} is not available on a body that ends; leave one out"
+                )
+        if not isinstance(problem.grid, Grid):
+            raise ValueError(
+                f"{name}.ends: no grid is chosen for a body that ends; give 'shape' and 'size' of "
+                "a grid with borders of cells at the ends"
+            )
+    if problem.ends_twice and problem.load.control != "force":
+        raise ValueError(
+            f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
+        )
+
+
+def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
+    """Refuse a grid whose cells do not end where the bodies do."""
+    for name, body in problem.ended_bodies.items():
+        if any(grid.periodic):
+            raise ValueError(
+                f"grid.periodic: must be false for a body that ends ({name}.ends); use a grid "
+                "that is not periodic"
+            )
+        for plane in body.planes:
+            if plane is None or is_border(grid, plane):
+                continue
+            cell = grid.cell_size[0]
+            raise ValueError(
+                f"{name}.ends: the end at x = {format_quantity(plane, 'm', 6)} must be a border of "
+                f"cells, which are {format_quantity(cell, 'm', 6)} long, and lies within one; "
+                f"make the length of the grid, now {format_quantity(grid.size[0], 'm', 6)}, such "
+                "that whole cells fit between the end and the edge of the grid"
+            )
+        before, after = body.planes
+        half = grid.size[0] / 2
+        begins, stops = grid.centre[0] - half, grid.centre[0] + half
+        if (before is not None and before >= stops) or (after is not None and after <= begins):
+            raise ValueError(f"{name}.ends: no cell of the grid lies on the body; move the grid")
+
+
+def is_border(grid: Grid, plane: float) -> bool:
+    """True if a plane across x lies on a border of cells, in the grid or continued beyond it."""
+    place = (plane - grid.centre[0] + grid.size[0] / 2) / grid.cell_size[0]
+    return abs(place - round(place)) < ON_BORDER
+
+
+def planes_of(problem: Problem) -> tuple[float, ...]:
+    """Positions x of the ends of all bodies [m]."""
+    bodies = problem.ended_bodies.values()
+    return tuple(plane for body in bodies for plane in body.planes if plane is not None)
+
+
+def error_of_ends(problem: Problem) -> float:
+    """Part of the displacement by free ends that their operator may miss [-]."""
+    free = (body for body in problem.ended_bodies.values() if "free" in body.ends)
+    return max((ends_error(body.material.poisson_ratio or 0.0) for body in free), default=0.0)
+
+
+def datum_of_ends_warnings(problem: Problem, undefined: tuple[str, ...]) -> dict[str, str]:
+    """Warn that approach and what follows from it, `undefined`, have no datum between two ends."""
+    if not problem.ends_twice:
+        return {}
+    *others, last = undefined
+    return {"datum": f"{NO_DATUM}: {', '.join(others)} and {last} are not defined (NaN)"}

@@ -1,0 +1,143 @@
+"""Contacts near the ends of bodies: limits, creep, and the mirrored half-space."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from closeness import close_to
+
+LEVEL = {"tilt_x": 0.0, "tilt_y": 0.0}
+
+
+def _at_distance(
+    distance: float, material: vc.Material, times: list[float], **how: Any
+) -> xr.Dataset:
+    """Sphere pressed at a distance from a free end at x < 0 [m], or far from any."""
+    # The end is a border of cells, on the grid or beyond it.
+    body: vc.Material | vc.Body = material
+    if np.isfinite(distance):
+        body = vc.Body(material, 1.0, centre=0.5 - distance, ends=("free", None))
+    grid = vc.Grid((48, 48), (2.4e-3, 2.4e-3))
+    load = vc.step(0.02, **LEVEL)
+    return vc.simulate(vc.Sphere(0.01), body, load, grid, times, errors=False, **how)
+
+
+def test_far_from_an_end_its_effect_falls_as_the_inverse_distance() -> None:
+    steel = vc.Material(vc.Elastic(1e6), poisson_ratio=0.3)
+    far = float(_at_distance(np.inf, steel, [0.0]).approach[0])
+    added = [float(_at_distance(d, steel, [0.0]).approach[0]) - far for d in (6e-3, 12e-3, 24e-3)]
+    # A contact of half width a at a distance d differs by (a/d)² from a point load.
+    assert np.divide(added[:-1], added[1:]) == close_to([2.0, 2.0], rel=5e-3)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # long steps
+def test_a_body_that_creeps_near_its_end_begins_and_ends_as_elastic_ones() -> None:
+    law = vc.Zener(1e6, 2e6, 2e6)  # relaxed after some seconds
+    creeping = _at_distance(
+        0.3e-3, vc.Material(law, 0.5), [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 20.0, 60.0]
+    )
+    for index, modulus in ((0, 1e6), (-1, 0.5 / float(law(1e9)))):
+        elastic = _at_distance(0.3e-3, vc.Material(vc.Elastic(modulus), 0.5), [0.0])
+        for name in ("approach", "contact_area", "eccentricity_x"):
+            assert float(creeping[name][index]) == close_to(float(elastic[name][0]), rel=2e-5)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # the approach has no datum
+def test_a_held_body_is_pressed_as_its_mirrored_half_beside_it() -> None:
+    # Two walls mirror the contact without end: a line of spheres, two in each period.
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.4)
+    load = vc.step(0.02, tilt_x=0.0)
+    held = vc.simulate(
+        vc.Sphere(0.01),
+        vc.Body(rubber, 2e-3, ends="held"),
+        load,
+        vc.Grid((36, 32), (2.4e-3, 2e-3)),
+        [0.0],
+        tolerance=1e-9,
+        errors=False,
+    )
+    row = vc.simulate(
+        vc.Sphere(0.01),
+        rubber,
+        load,
+        vc.Grid((30, 32), (2e-3, 2e-3), periodic=(True, False)),
+        [0.0],
+        tolerance=1e-9,
+        errors=False,
+    )
+    assert held.pressure[0].values[3:33] == close_to(row.pressure[0].values, rel=1e-7, abs=1e-3)
+    assert np.isnan(held.approach[0])
+    assert "logarithm of the depth" in held.attrs["warnings"]
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # the sharp end
+def test_pressure_falls_towards_a_free_end_and_rises_towards_a_sharp_one() -> None:
+    steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    grid = vc.Grid((66, 32), (6.6e-3, 0.5e-3))
+    load = vc.step(2000.0, **LEVEL)
+    peaks = {}
+    for name, body in (("sharp", steel), ("free", vc.Body(steel, 6e-3, ends=(None, "free")))):
+        ds = vc.simulate(vc.Roller(0.01, 3e-3), body, load, grid, [0.0], errors=False)
+        peaks[name] = ds.line_load[0].values[3:63]
+        warned = ds.attrs["warnings"]
+        # The other end is a sharp one in both.
+        assert "ends: free" in warned
+    middle = slice(25, 35)
+    assert peaks["sharp"][-1] > 1.5 * peaks["sharp"][middle].mean()
+    assert peaks["free"][-1] < 0.8 * peaks["free"][middle].mean()
+
+
+def test_two_bodies_may_end_at_different_places() -> None:
+    # A body that ends far away adds what a far end adds; with all its creep in one term or in two.
+    rubber, steel = vc.Material(vc.Elastic(1e6), 0.5), vc.Material(vc.Elastic(2e6), 0.3)
+    both = _at_distance(
+        0.3e-3, rubber, [0.0], indenter_material=vc.Body(steel, 2.0, ends=(None, "free"))
+    )
+    half_space = _at_distance(0.3e-3, rubber, [0.0], indenter_material=steel)
+    one, other = (float(ds.approach[0]) for ds in (both, half_space))
+    assert 0 < one / other - 1 < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [
+        ({"ends": "free"}, "ends act on each other"),
+        ({"grid": None}, "no grid is chosen"),
+        ({"length": 4.01e-3}, "must be a border of cells"),
+        ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-3])}, "not available in motion"),
+        ({"friction": 0.3}, "friction is not available"),
+        ({"adhesion": vc.Adhesion(work=0.1, range=1e-6)}, "adhesion is not available"),
+        ({"periodic": (False, True)}, "grid.periodic: must be false"),
+        ({"ends": "held", "load": vc.step(approach=1e-6)}, "has no datum"),
+        ({"centre": 10e-3, "length": 8e-3}, "no cell of the grid"),
+    ],
+)
+def test_what_a_body_that_ends_is_not_available_for_is_refused(
+    changes: dict[str, Any], why: str
+) -> None:
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    body = vc.Body(
+        rubber,
+        changes.pop("length", 4e-3),
+        centre=changes.pop("centre", 1.8e-3),
+        ends=changes.pop("ends", ("free", None)),
+    )
+    grid = vc.Grid((48, 48), (2.4e-3, 2.4e-3), periodic=changes.pop("periodic", False))
+    given = {"load": vc.step(0.02), "grid": grid, "times": [0.0], **changes}
+    with pytest.raises(ValueError, match=why):
+        vc.simulate(vc.Sphere(0.01), body, **given)
+
+
+def test_a_body_that_ends_needs_a_constant_poisson_ratio_and_one_material() -> None:
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    with pytest.raises(ValueError, match="constant poisson_ratio"):
+        vc.Body(vc.Material(vc.Elastic(1e6), bulk_modulus=1e9), 1e-3)
+    with pytest.raises(ValueError, match="layers that end are not available"):
+        vc.Body(vc.Layered([vc.Layer(1e-3, rubber)], "rigid"), 1e-3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="a body without ends is a Material"):
+        vc.Body(rubber, 1e-3, ends=(None, None))
