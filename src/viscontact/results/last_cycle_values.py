@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.results.formatting import format_scalar
 from viscontact.results.recorded_case import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_quantity
+
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
 
 #: Least part by which the largest value exceeds another one to be worth stating [-].
 _NOTABLE = 1e-3
@@ -28,7 +30,7 @@ def first_largest(sizes: Floats) -> int:
     return int(np.flatnonzero(sizes >= sizes.max() - _EQUAL * abs(sizes.max()))[0])
 
 
-def notable_largest(ds: xr.Dataset, name: str, shown: int) -> int | None:
+def notable_largest(ds: Result, name: str, shown: int) -> int | None:
     """Index of the largest magnitude of a scalar; None if it hardly exceeds the one at `shown`."""
     sizes = np.nan_to_num(np.abs(ds[name].values))
     largest = first_largest(sizes)
@@ -44,14 +46,14 @@ class LoadCycle:
     first: int
     last: int
 
-    def extremes(self, ds: xr.Dataset, name: str) -> tuple[int, int] | None:
+    def extremes(self, ds: Result, name: str) -> tuple[int, int] | None:
         """Indices of the least and the largest value of a scalar; None if all are NaN."""
         values = ds[name].values[self.first : self.last + 1]
         if np.isnan(values).all():
             return None
         return self.first + int(np.nanargmin(values)), self.first + int(np.nanargmax(values))
 
-    def range_of(self, ds: xr.Dataset, name: str) -> str:
+    def range_of(self, ds: Result, name: str) -> str:
         """Least and largest value of a scalar, as "2 ± 0.1 MPa to 3 MPa"."""
         found = self.extremes(ds, name)
         if found is None:
@@ -61,7 +63,7 @@ class LoadCycle:
         return texts[1] if high - low <= _NOTABLE * abs(high) else " to ".join(texts)
 
 
-def last_cycle(ds: xr.Dataset, *, least: int = 2) -> LoadCycle | None:
+def last_cycle(ds: Result, *, least: int = 2) -> LoadCycle | None:
     """Last whole cycle of the load; None if the load has fewer than `least` cycles."""
     if not run_axis(ds).is_history:
         return None
@@ -77,7 +79,7 @@ def last_cycle(ds: xr.Dataset, *, least: int = 2) -> LoadCycle | None:
     return LoadCycle(*whole[-1], first, last) if last - first > 1 else None
 
 
-def worst_places(ds: xr.Dataset, name: str, shown: int) -> dict[str, Any]:
+def worst_places(ds: Result, name: str, shown: int) -> dict[str, Any]:
     """Indices of the extremes in the last `cycle`, and of the notable `largest`; None if none."""
     if not run_axis(ds).is_history:
         return {"cycle": None, "largest": None}
@@ -91,7 +93,7 @@ def worst_places(ds: xr.Dataset, name: str, shown: int) -> dict[str, Any]:
     }
 
 
-def worst_notes(ds: xr.Dataset, name: str, shown: int) -> list[str]:
+def worst_notes(ds: Result, name: str, shown: int) -> list[str]:
     """Notes beside a value at an index: the range of the last cycle, the largest of the run."""
     places, notes = worst_places(ds, name, shown), []
     if places["cycle"] is not None and (cycle := last_cycle(ds)) is not None:

@@ -121,7 +121,7 @@ def recorded_clock(results: xr.Dataset, part: str, figure: str) -> Clock:
     return TIME if body is None else clock_of(body, temperature if varies else None)
 
 
-def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
+def recorded_object(results: Result, part: str, figure: str) -> Any:
     """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
 
     Bodies at a constant temperature have the laws of the run, and no ends: see `has_ends`.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from viscontact.results.formatting import (
     NEGLIGIBLE,
@@ -27,6 +27,9 @@ from viscontact.results.stated_errors import (
 from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
+if TYPE_CHECKING:
+    from viscontact.results.stored_result import Result
+
 #: Legend of the columns, with the name of a row.
 _LEGEND = (
     "±: the error of each value at that {row} (of 100 true errors 95 are meant to be smaller); "
@@ -34,7 +37,7 @@ _LEGEND = (
 )
 
 
-def legend(ds: xr.Dataset) -> str:
+def legend(ds: Result) -> str:
     """Legend of the columns."""
     return _LEGEND.format(row=run_axis(ds).row)
 
@@ -73,18 +76,18 @@ class SummaryRow:
         return f"{self.part} at {self.when}" if self.when else self.part
 
 
-def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
+def summary_rows(ds: Result) -> list[SummaryRow]:
     """Rows of the summary: one for each scalar of a result that is more than rounding."""
     return [_row(ds, name) for name in summary_scalars(ds)]
 
 
-def summary_scalars(ds: xr.Dataset) -> list[str]:
+def summary_scalars(ds: Result) -> list[str]:
     """Scalars of a result that have errors, are of use, and are more than rounding."""
     names = [name for name in scalars_with_error() if name in ds and is_shown(ds, name)]
     return [name for name in names if not is_rounding(ds, name)]
 
 
-def _row(ds: xr.Dataset, name: str) -> SummaryRow:
+def _row(ds: Result, name: str) -> SummaryRow:
     values, errors = np.asarray(ds[name].values, dtype=np.float64), errors_of(ds, name)
     at_largest = int(np.nanargmax(np.abs(values)))
     unit = readable_unit(SCALARS[name].units, float(values[at_largest]))
@@ -112,7 +115,7 @@ def _largest_error(
     return error, part, axis.quantity(found.place, 3) if found.part > NEGLIGIBLE else ""
 
 
-def headline(ds: xr.Dataset) -> str:
+def headline(ds: Result) -> str:
     """The result in words: the contact at the end, or when largest if it is lost by then."""
     # Under a cyclic load the last whole cycle comes first. The largest peak pressure follows where
     # it exceeds that of the sentence. In steady motion: the largest friction coefficient.
@@ -133,12 +136,12 @@ def headline(ds: xr.Dataset) -> str:
     )
 
 
-def largest_friction(ds: xr.Dataset) -> int:
+def largest_friction(ds: Result) -> int:
     """Index of the speed with the largest friction coefficient."""
     return int(np.nan_to_num(np.abs(ds["friction_coefficient"].values)).argmax())
 
 
-def _headline_over_speed(ds: xr.Dataset) -> str:
+def _headline_over_speed(ds: Result) -> str:
     index = largest_friction(ds)
     speed = SPEED.place(float(ds["speed"][index]))
     if is_rounding(ds, "friction_coefficient"):
@@ -151,7 +154,7 @@ def _headline_over_speed(ds: xr.Dataset) -> str:
     return f"The friction coefficient is largest at {speed}, {value}. There {_contact(ds, index)}."
 
 
-def _largest_peak(ds: xr.Dataset, shown: int) -> str:
+def _largest_peak(ds: Result, shown: int) -> str:
     """Sentence about the largest peak pressure; empty if it hardly exceeds that at an index."""
     at = notable_largest(ds, "peak_pressure", shown)
     if at is None:
@@ -160,7 +163,7 @@ def _largest_peak(ds: xr.Dataset, shown: int) -> str:
     return f" The peak pressure is largest at t = {when}: {format_scalar(ds, 'peak_pressure', at)}."
 
 
-def _cycle(ds: xr.Dataset) -> str:
+def _cycle(ds: Result) -> str:
     """Sentence about the last whole cycle of a cyclic load; empty for any other load."""
     cycle = last_cycle(ds)
     if cycle is None:
@@ -174,7 +177,7 @@ def _cycle(ds: xr.Dataset) -> str:
     return f"{text}. "
 
 
-def _contact(ds: xr.Dataset, index: int) -> str:
+def _contact(ds: Result, index: int) -> str:
     force, area, approach, peak = (
         format_scalar(ds, name, index)
         for name in ("force", "contact_area", "approach", "peak_pressure")

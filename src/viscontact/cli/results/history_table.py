@@ -14,15 +14,15 @@ from rich.table import Table
 from viscontact.backend.arrays import Integers
 from viscontact.cli.results.accuracy import accuracy_lines, has_errors, knows_errors
 from viscontact.cli.results.stored import early_end
+from viscontact.cli.results.stored_findings import print_stored_findings
 from viscontact.cli.terminal.console import TextConsole, styled
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.run_axis import run_axis
-from viscontact.results.single_spot import ends_in_one_spot
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.stored_result import StoredResult
-from viscontact.results.variables import ALLOWABLE, AXES, SCALARS, Place, shown_in
+from viscontact.results.variables import AXES, SCALARS, Place, shown_in
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
@@ -57,20 +57,11 @@ def print_history(
         console.print(f"{len(rows)} of {count} {axis.row}s; --all shows every one")
     for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
-    if ALLOWABLE in ds.attrs or "events" in ds.attrs or not ends_in_one_spot(ds):
-        _print_findings(console, directory)
+    print_stored_findings(console, ds, directory)
     if ended := early_end(ds):
         console.print(styled(ended, "yellow"), soft_wrap=True)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
         console.warn(line)
-
-
-def _print_findings(console: TextConsole, directory: Path) -> None:
-    from viscontact.cli.results.findings import print_findings
-    from viscontact.results.netcdf import open_results
-
-    with open_results(directory) as ds:
-        print_findings(console, ds)
 
 
 def _shown_scalars(ds: StoredResult) -> list[str]:

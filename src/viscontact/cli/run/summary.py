@@ -8,17 +8,16 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
-import xarray as xr
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from viscontact.cli.results.accuracy import accuracy_lines, knows_errors
-from viscontact.cli.results.findings import print_findings
+from viscontact.cli.results.stored_findings import print_stored_findings
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.cli.terminal.messages import put
-from viscontact.results.netcdf import open_results
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
+from viscontact.results.stored_result import StoredResult, stored_result
 from viscontact.results.summary import SummaryRow, legend, summary_rows
 from viscontact.units.formatting import format_quantity
 
@@ -28,11 +27,11 @@ _GAP = 2
 
 def print_summary(directory: Path) -> None:
     """Print the results, the cost and the warnings of a finished run."""
-    with open_results(directory) as ds:
+    with stored_result(directory) as ds:
         _print(ds, directory)
 
 
-def _print(ds: xr.Dataset, directory: Path) -> None:
+def _print(ds: StoredResult, directory: Path) -> None:
     console = TextConsole()
     rows = summary_rows(ds)
     # Never truncated, even where the table is wider than the terminal.
@@ -43,12 +42,12 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
     count = ds.sizes[axis.name]
     rows_of = axis.row if count == 1 and not axis.is_history else axis.rows
     console.print(
-        f"{count} {rows_of} in {seconds}, {int(ds['iterations'].sum())} iterations, residual at "
-        f"most {float(ds['residual'].max()):.1e}"
+        f"{count} {rows_of} in {seconds}, {int(ds['iterations'].values.sum())} iterations, "
+        f"residual at most {float(ds['residual'].values.max()):.1e}"
     )
     for line in accuracy_lines(ds, [row.name for row in rows]):
         console.print(line, highlight=False)
-    print_findings(console, ds)
+    print_stored_findings(console, ds, directory)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
         console.print(f"grid enlarged at {line}", highlight=False)
     for line in _warnings(directory / PROGRESS_NAME, axis, str(ds.attrs.get("warnings", ""))):
@@ -70,7 +69,7 @@ def _warnings(lines: Path, axis: RunAxis, of_result: str) -> Iterator[str]:
     yield from (text for text in of_result.splitlines() if text not in printed)
 
 
-def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
+def _table(ds: StoredResult, rows: list[SummaryRow], width: int) -> Table:
     """Table with the errors next to their numbers, or below them on a narrow terminal."""
     columns = _columns(ds, rows)
     whole = sum(max(map(len, [heading, *cells])) + _GAP for heading, cells in columns.items())
@@ -87,7 +86,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
     return table
 
 
-def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
+def _columns(ds: StoredResult, rows: list[SummaryRow]) -> dict[str, list[str]]:
     columns = {"": [row.heading for row in rows]}
     axis = run_axis(ds)
     first, last = (axis.place(float(ds[axis.name][index])) for index in (0, -1))
@@ -107,7 +106,7 @@ def _on_lines(cell: str) -> str:
     return re.sub(r"\s+(?=±|at \d)", "\n", cell.strip())
 
 
-def _states_errors(ds: xr.Dataset, rows: list[SummaryRow]) -> bool:
+def _states_errors(ds: StoredResult, rows: list[SummaryRow]) -> bool:
     return knows_errors(ds, [row.name for row in rows])
 
 

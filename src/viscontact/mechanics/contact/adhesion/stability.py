@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy  # its linear algebra is imported at its first use
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.adhesion.newton import LinearStep
@@ -65,7 +65,9 @@ def _largest_ratio(changes: list[Floats], moves: list[Floats], falls: Floats) ->
     metric = np.einsum("ik,jk->ij", y, z)
     matrix = np.einsum("ik,k,jk->ij", z, falls.ravel(), z)
     try:
-        values = eigh((matrix + matrix.T) / 2, (metric + metric.T) / 2, eigvals_only=True)
+        values = scipy.linalg.eigh(
+            (matrix + matrix.T) / 2, (metric + metric.T) / 2, eigvals_only=True
+        )
     except np.linalg.LinAlgError:  # the changes are multiples of one another
         values = np.array([matrix[0, 0] / metric[0, 0]])
     return float(values.max())
