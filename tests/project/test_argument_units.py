@@ -27,11 +27,11 @@ from project.array_arguments import (
 )
 from returned import some
 from viscontact.bodies.loads.history import Control
-from viscontact.results.descriptions import STORED_CLASSES
+from viscontact.results.descriptions import stored_class, stored_classes
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.numbers import unit_of
 
-CLASSES = tuple(STORED_CLASSES.values())
+CLASSES = tuple(stored_classes().values())
 NUMERIC = re.compile(r"\b(float|int|Floats)\b")
 UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1", "N/s"}
 
@@ -48,7 +48,7 @@ def test_numeric_fields_have_a_unit_and_other_fields_have_none(owner: type) -> N
 
 
 def test_a_unit_may_depend_on_what_a_load_controls() -> None:
-    harmonic = STORED_CLASSES["HarmonicHistory"]
+    harmonic = stored_class("HarmonicHistory")
     assert unit_of(harmonic, "mean", "force") == "N"
     assert unit_of(harmonic, "mean", "approach") == "m"
     assert unit_of(harmonic, "phase") == "rad"

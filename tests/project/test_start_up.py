@@ -99,7 +99,17 @@ def test_a_run_and_its_tables_import_no_library_of_datasets(tmp_path: Path) -> N
     unwanted = (*OF_DATASETS, *(SLOW_PARTS if TRANSFORMS else ()), *TRANSFORMS, "scipy.linalg")
     code = "from viscontact.cli import main; assert main({words!r}) == 0"
     assert imported(code.format(words=["run", case, "-o", run, *small]), unwanted) == ""
-    assert imported(code.format(words=["show", run]), unwanted) == ""
+    kinds = ("bodies.materials.material", "bodies.laws.law", "bodies.indenters.indenter")
+    no_kinds = tuple(f"viscontact.{each}" for each in kinds)
+    assert imported(code.format(words=["show", run]), (*unwanted, *no_kinds)) == ""
+
+
+def test_a_case_imports_the_kinds_that_it_names_only() -> None:
+    kinds = ("indenters.torus", "laws.fractional_zener", "loads.travel", "materials.cards.reader")
+    others = ("surfaces.reader", "series_fits.prony")
+    unwanted = tuple(f"viscontact.bodies.{each}" for each in (*kinds, *others))
+    code = f"from viscontact.case import read_case; read_case({str(CASE)!r})"
+    assert imported(code, unwanted) == ""
 
 
 @pytest.mark.slow

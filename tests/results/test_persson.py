@@ -11,7 +11,7 @@ from scipy.special import erf
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.bodies.surfaces.power_spectrum import mean_square_waves
+from viscontact.bodies.surfaces.height_spectrum import mean_square_waves
 from viscontact.surfaces import persson_area, persson_sliding, topography_of
 
 LENGTH = 1e-3

@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from viscontact.bodies.grid import Grid
+from viscontact.results.creep_times import law_times
 from viscontact.results.enlarged_grid import enlargement, line_on_wider, on_wider
 from viscontact.results.last_cycle_values import first_largest, notable_largest
 from viscontact.results.recorded_case import across_period, is_prescribed, recorded_poisson_ratio
@@ -21,7 +22,7 @@ from viscontact.results.recorded_motion import (
     direction_at,
     motion_axis,
 )
-from viscontact.results.run_axis import SPEED, TIME, in_order, law_times, require_time, run_axis
+from viscontact.results.run_axis import SPEED, TIME, in_order, require_time, run_axis
 from viscontact.results.shown_scalars import is_long, lacks_datum
 from viscontact.results.snapshot import Snapshot
 from viscontact.results.snapshots import take_snapshots

@@ -12,7 +12,7 @@ import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.loads.clock import TIME, ReducedTime
 from viscontact.drawing.content.exact_history import exact_history, exact_panels
-from viscontact.results.recorded_case import (
+from viscontact.results.recorded_objects import (
     recorded_clock,
     recorded_object,
     recorded_temperature,

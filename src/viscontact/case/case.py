@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
-from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.surfaces import Surface
 from viscontact.case.document import Document
 from viscontact.case.error_messages import object_problem
@@ -68,7 +68,7 @@ class Case(DisplayableGroup, Problem):
     leakage: Mapping[str, Any]
     digests: Mapping[Path, bytes] = field(repr=False)
     measured: Mapping[str, Mapping[str, Any]]
-    fits: Mapping[str, Fit] = field(repr=False)
+    fits: Mapping[str, series_fits.Fit] = field(repr=False)
     surfaces: tuple[Surface, ...] = field(repr=False)
     notes: tuple[str, ...]
     document: Document = field(repr=False)

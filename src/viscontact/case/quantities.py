@@ -18,7 +18,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies.grid import COARSEST, FINEST
-from viscontact.bodies.loads.harmonic import MOST_CYCLES
+from viscontact.bodies.loads.harmonic_history import MOST_CYCLES
 from viscontact.mechanics.time_integration.requested_times import (
     COARSEST_TIME_ERROR,
     FINEST_TIME_ERROR,

@@ -10,8 +10,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
-from viscontact.bodies.series_fits.fit import Fit
 from viscontact.case.case import Case
 from viscontact.case.document import Document, as_written, document_of, read_document
 from viscontact.case.error_messages import corrected, problem
@@ -181,7 +181,7 @@ def _tables(found: CaseFile) -> dict[str, TableLaw]:
     return {name: law for name, law in materials.items() if isinstance(law, TableLaw)}
 
 
-def _fits(found: CaseFile) -> dict[str, Fit]:
+def _fits(found: CaseFile) -> dict[str, series_fits.Fit]:
     """Fits of the materials and of those of layers, by their keys."""
     laws = {name: law for name, law in found.media.items() if isinstance(law, TableLaw)}
     return {name: law.fit for name, law in laws.items() if law.fit is not None}

@@ -9,8 +9,9 @@ from viscontact.bodies.materials.layers import named_parts
 from viscontact.bodies.materials.material import Material
 from viscontact.report.drawings import BODIES
 from viscontact.results.argument_table import in_plain_words
-from viscontact.results.recorded_case import case_of, recorded_object, recorded_temperature
-from viscontact.results.run_axis import follows_clock, reduced_name
+from viscontact.results.creep_times import follows_clock, reduced_name
+from viscontact.results.recorded_case import case_of
+from viscontact.results.recorded_objects import recorded_object, recorded_temperature
 from viscontact.units.formatting import format_quantity
 from viscontact.units.temperatures import in_celsius
 

@@ -26,8 +26,9 @@ from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.report.page_elements import remark, width_of
-from viscontact.results.recorded_case import case_of, is_layered, recorded_grid, recorded_object
-from viscontact.results.run_axis import law_times
+from viscontact.results.creep_times import law_times
+from viscontact.results.recorded_case import case_of, is_layered, recorded_grid
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity
 

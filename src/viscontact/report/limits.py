@@ -11,8 +11,10 @@ import xarray as xr
 
 from viscontact.bodies.materials.layers import named_parts
 from viscontact.mechanics.state import Outcome
-from viscontact.results.recorded_case import case_of, is_layered, recorded_object
-from viscontact.results.run_axis import creep_times, run_axis
+from viscontact.results.creep_times import creep_times
+from viscontact.results.recorded_case import case_of, is_layered
+from viscontact.results.recorded_objects import recorded_object
+from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_number, format_quantity
 
 

@@ -16,15 +16,16 @@ import numpy as np
 from viscontact.bodies.laws import Law
 from viscontact.bodies.loads import LoadHistory, LoadProgram, TemperatureHistory
 from viscontact.bodies.loads.motion import Motion
-from viscontact.results.descriptions import STORED_CLASSES, rebuild
+from viscontact.results.descriptions import rebuild, stored_classes
 from viscontact.units.formatting import format_quantity
 
-_LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
+_STORED = stored_classes()
+_LAWS = {name for name, each in _STORED.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid", "CombinedIndenter", "PlacedIndenter"}
 _PLAIN |= {"Layer", "Layered"}
 _OVER_TIME = LoadHistory | Motion | TemperatureHistory
-_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, _OVER_TIME)}
+_PLAIN |= {name for name, each in _STORED.items() if issubclass(each, _OVER_TIME)}
 #: Arguments that are left out if this is their value.
 _DEFAULTS: dict[str, tuple[object, ...]] = {
     **dict.fromkeys(["eccentricity_x", "eccentricity_y", "fluidity", "phase"], (0,)),
@@ -45,7 +46,7 @@ def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[t
     if kind and kind not in _PLAIN:
         # A class of the user's own may be a shape, a law or a load.
         known = "law" if kind in _LAWS else "shape"
-        yield owner or (known if kind in STORED_CLASSES else "kind"), in_plain_words(kind)
+        yield owner or (known if kind in _STORED else "kind"), in_plain_words(kind)
     if description.get("program"):
         yield from _program_rows(rebuild(description["program"]))
         return
@@ -83,7 +84,7 @@ def _metadata() -> dict[tuple[str, str], Mapping[str, Any]]:
     """Metadata of the fields that have a unit, by class and field."""
     return {
         (name, item.name): item.metadata
-        for name, each in STORED_CLASSES.items()
+        for name, each in _STORED.items()
         for item in dataclasses.fields(each)
         if "unit" in item.metadata
     }
@@ -95,7 +96,7 @@ def _words(kind: str, key: str) -> str:
 
 
 def _unit(kind: str, key: str, control: str) -> str:
-    if kind in STORED_CLASSES:
+    if kind in _STORED:
         unit = _metadata().get((kind, key), {}).get("unit", "SI")
         return str(unit.get(control, "SI") if isinstance(unit, Mapping) else unit)
     # A class of the user's own: the unit that all others have in a field of that name.

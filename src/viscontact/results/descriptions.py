@@ -12,35 +12,36 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.bodies import indenters, laws, loads
+from viscontact.bodies import indenters, laws, loads, materials
 from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
-from viscontact.bodies.materials.body import Body
-from viscontact.bodies.materials.layers import Layer, Layered
-from viscontact.bodies.materials.material import Material
-from viscontact.bodies.materials.measured_range import MeasuredRange
 from viscontact.units.axis_flags import AxisFlags
 
-_EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
-
-_OTHERS = (
-    *(Material, MeasuredRange, Layer, Layered, Body),
-    *(Grid, AutomaticGrid, Friction, Adhesion),
-)
-
-#: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
-STORED_CLASSES: dict[str, Any] = {
-    each.__name__: each
-    for each in (*_EXPORTED, *_OTHERS)
-    if isinstance(each, type) and not (isabstract(each) or each is loads.LoadPoint)
-}
+#: Rooms whose exported classes a description names, and further classes by their names.
+_ROOMS = (indenters, laws, loads, materials)
+_OTHERS = {each.__name__: each for each in (Grid, AutomaticGrid, Friction, Adhesion)}
 
 #: The number for which JSON has no notation.
 INFINITE = "infinite"
 
 #: Larger maps (measured surfaces) are named by shape and fingerprint, not written out.
 LARGEST_ARRAY = 4096
+
+
+def stored_class(name: str) -> Any | None:
+    """Class that a description names: a shape, law, shift, load or what they make; else None."""
+    room = next((room for room in _ROOMS if name in room.__all__), None)
+    found = _OTHERS.get(name) if room is None else getattr(room, name)
+    is_kind = isinstance(found, type) and not (isabstract(found) or found is loads.LoadPoint)
+    return found if is_kind else None
+
+
+def stored_classes() -> dict[str, Any]:
+    """All classes that descriptions name, by their names."""
+    names = [*(name for room in _ROOMS for name in room.__all__), *_OTHERS]
+    found = {name: stored_class(name) for name in names}
+    return {name: each for name, each in found.items() if each is not None}
 
 
 def describe(obj: Any) -> Any:
@@ -98,10 +99,10 @@ def rebuild(description: Any) -> Any:
             f"an array of shape {description['shape']} is too large, or has holes, and is not kept "
             "in a result; build the indenter from its source again"
         )
-    kind = STORED_CLASSES.get(description.get("type", ""))
+    kind = stored_class(str(description.get("type", "")))
     if kind is None:
         raise ValueError(
-            f"no object is called {description.get('type')!r}; known are {sorted(STORED_CLASSES)}"
+            f"no object is called {description.get('type')!r}; known are {sorted(stored_classes())}"
         )
     return kind(**{key: rebuild(value) for key, value in description.items() if key != "type"})
 

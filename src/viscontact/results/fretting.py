@@ -10,7 +10,7 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads import TangentialLoad
-from viscontact.results.recorded_case import recorded_object
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.stated_errors import errors_of
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.results.formatting import format_scalar
-from viscontact.results.recorded_case import recorded_object
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_quantity
 

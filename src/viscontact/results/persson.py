@@ -17,7 +17,7 @@ from viscontact.backend.arrays import Floats, Integers, Numbers
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface, surface_of
-from viscontact.bodies.surfaces.power_spectrum import mean_square_waves
+from viscontact.bodies.surfaces.height_spectrum import mean_square_waves
 from viscontact.bodies.surfaces.topographies import is_topography
 from viscontact.mechanics.problem.surface import constant_poisson_ratio
 from viscontact.units.numbers import non_negative, real, real_array

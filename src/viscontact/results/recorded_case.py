@@ -1,17 +1,11 @@
-"""The case that a result keeps as JSON: its parts, rebuilt."""
+"""The case that a result keeps as JSON: what it says of the run."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
 from viscontact.bodies.grid import Grid
-from viscontact.bodies.loads import TemperatureHistory
-from viscontact.bodies.loads.clock import TIME, Clock
-from viscontact.bodies.materials.body import Body
-from viscontact.bodies.materials.layers import Layered, at_temperature
-from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.problem.surface import clock_of
-from viscontact.results.descriptions import STORED_CLASSES, parse_case, rebuild
+from viscontact.results.descriptions import parse_case, stored_class
 from viscontact.units.axis_flags import AxisFlags
 
 if TYPE_CHECKING:
@@ -79,14 +73,14 @@ def across_period(results: Result) -> Literal["x", "y"] | None:
 def prescribes_approach(ds: Result) -> bool:
     """True if the load of a run prescribes the approach, so that the force is computed."""
     load = case_of(ds).get("load") or {}
-    kind = STORED_CLASSES.get(load.get("type", ""))
+    kind = stored_class(load.get("type", ""))
     return bool(load.get("control", getattr(kind, "control", "force")) == "approach")
 
 
 def has_mixed_control(ds: Result) -> bool:
     """True if the load of a run prescribes the force on some segments, the approach on others."""
     load = case_of(ds).get("load") or {}
-    kind = STORED_CLASSES.get(load.get("type", ""))
+    kind = stored_class(load.get("type", ""))
     return getattr(kind, "control", "") == "mixed"
 
 
@@ -103,44 +97,3 @@ def is_prescribed(ds: Result, name: str) -> bool:
         is_tilted = load.get(name.replace("eccentricity", "tilt")) is not None
         return not prescribes_approach(ds) and not is_tilted
     return name.startswith("tilt_") and load.get(name) is not None
-
-
-def recorded_temperature(results: Result) -> TemperatureHistory | None:
-    """Temperature that the case of a result gives; None where laws are used as they are."""
-    described = case_of(results).get("temperature")
-    found = None if described is None else rebuild(described)
-    assert found is None or isinstance(found, TemperatureHistory)
-    return found
-
-
-def recorded_clock(results: xr.Dataset, part: str, figure: str) -> Clock:
-    """Clock of the creep of a body of a result, "material" or "indenter_material"."""
-    temperature = recorded_temperature(results)
-    varies = temperature is not None and not temperature.is_constant
-    body = recorded_object(results, part, figure)
-    return TIME if body is None else clock_of(body, temperature if varies else None)
-
-
-def recorded_object(results: Result, part: str, figure: str) -> Any:
-    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
-
-    Bodies at a constant temperature have the laws of the run, and no ends: see `has_ends`.
-    """
-    # A large part is recorded by its fingerprint only.
-    if "case" not in results.attrs:
-        raise ValueError(
-            f"{figure}: needs to know the {part} of the case, but the result has no attribute "
-            "'case'; give a result as simulate or open_results returned it"
-        )
-    described = case_of(results).get(part)
-    try:
-        found = None if described is None else rebuild(described)
-    except ValueError as error:
-        raise ValueError(f"{figure}: cannot rebuild the {part}: {error}") from error
-    if isinstance(found, Body):
-        found = found.material
-    if not isinstance(found, Material | Layered):
-        return found
-    temperature = recorded_temperature(results)
-    constant = temperature is not None and temperature.is_constant
-    return at_temperature(found, temperature.range[0]) if temperature and constant else found

@@ -13,7 +13,8 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface
 from viscontact.results.persson import persson_sliding, rough_waves
-from viscontact.results.recorded_case import recorded_grid, recorded_object
+from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_objects import recorded_object
 
 #: Relative change of a force that counts as held.
 _HELD = 1e-6

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import Outline, trace_outline
-from viscontact.results.recorded_case import recorded_grid, recorded_object
+from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.results.stored_contact import cells_in_contact

@@ -27,11 +27,10 @@ from viscontact.mechanics.problem.surface import as_elastic
 from viscontact.results.recorded_case import (
     has_ends,
     is_layered,
-    recorded_clock,
     recorded_grid,
-    recorded_object,
     recorded_poisson_ratio,
 )
+from viscontact.results.recorded_objects import recorded_clock, recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.units.numbers import real_array
 

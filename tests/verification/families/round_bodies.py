@@ -29,7 +29,7 @@ from verification.families.round_profiles import (
     rounded_cone,
     sphere,
 )
-from viscontact.bodies.loads.harmonic import HarmonicHistory
+from viscontact.bodies.loads.harmonic_history import HarmonicHistory
 
 Array = np.ndarray
 

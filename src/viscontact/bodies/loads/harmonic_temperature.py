@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
-from viscontact.bodies.loads.harmonic import MOST_CYCLES
+from viscontact.bodies.loads.harmonic_history import MOST_CYCLES
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.units.numbers import check_fields, finite, real_array, store, whole
 

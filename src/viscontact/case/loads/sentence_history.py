@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from viscontact.bodies.loads.harmonic import STEPS_PER_CYCLE
+from viscontact.bodies.loads.harmonic_history import STEPS_PER_CYCLE
 from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.course import (
     MOST_POINTS,

@@ -11,12 +11,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from viscontact.bodies import laws
+from viscontact.bodies import laws, series_fits
 from viscontact.bodies.laws import Law
-from viscontact.bodies.materials.cards import Card, is_card, read_card, unread_program
+from viscontact.bodies.materials import cards
 from viscontact.bodies.materials.material import Material
-from viscontact.bodies.series_fits.fit import Fit
-from viscontact.bodies.series_fits.table_fit import is_oscillation
 from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_record import measured_record
@@ -116,8 +114,8 @@ class TableLaw(FromFile):
         except ValueError:
             return None
         name = Path(self.file).name
-        unread = unread_program(text, name)
-        if unread is None and is_card(text):
+        unread = cards.unread_program(text, name)
+        if unread is None and cards.is_card(text):
             return f"{name}: is a material card; give law: card, with modulus_unit and time_unit"
         return unread
 
@@ -154,9 +152,9 @@ class TableLaw(FromFile):
         return data
 
     @cached_property
-    def fit(self) -> Fit | None:
+    def fit(self) -> series_fits.Fit | None:
         """Series fitted to an oscillation; None for a table over time."""
-        if not is_oscillation(self.table):
+        if not series_fits.is_oscillation(self.table):
             return None
         if self.quantity is not None and self.quantity in self.table:
             return None
@@ -289,11 +287,11 @@ class CardLaw(FromFile):
         return self.built.law
 
     @cached_property
-    def card(self) -> Card:
+    def card(self) -> cards.Card:
         """Return the card of the file."""
         self._require_units()
         try:
-            return read_card(
+            return cards.read_card(
                 self.file,
                 modulus_unit=self.modulus_unit,
                 time_unit=self.time_unit,

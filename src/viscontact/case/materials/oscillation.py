@@ -7,35 +7,33 @@ import warnings
 import numpy as np
 
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.bodies.series_fits.fit import Fit
-from viscontact.bodies.series_fits.prony import FitOptions
-from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
+from viscontact.bodies import series_fits
 from viscontact.tables import Table
 
 
 def fit_oscillation(
     table: Table, data: str, poisson_ratio: float | None, bulk_modulus: float | None
-) -> Fit:
+) -> series_fits.Fit:
     """Fit a series to a table of storage and loss modulus; its misfit is no Python warning here."""
-    points, measured = measured_columns(table)
-    options = FitOptions(data=data)
+    points, measured = series_fits.measured_columns(table)
+    options = series_fits.FitOptions(data=data)
     if data == "uniaxial":  # other data take no volume constants
         options |= {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AccuracyWarning)
-            return fit_measured(points, measured, **options)
+            return series_fits.fit_measured(points, measured, **options)
     except ValueError as error:
         raise ValueError(f"file: {table.located(error)}") from error
 
 
-def fit_note(table: Table, fit: Fit) -> str:
+def fit_note(table: Table, fit: series_fits.Fit) -> str:
     """Origin of the law in words: terms, residuals and range of the fit."""
     rms = " and ".join(
         f"{100 * np.sqrt(np.mean(each**2)):.2g} % of {name}" for name, each in fit.residuals.items()
     )
     weights = ", ".join(f"{name} {value:.3g}" for name, value in fit.weights.items())
-    rest = loss_note(fit.measured)
+    rest = series_fits.loss_note(fit.measured)
     return (
         f"the law is a relaxation series of {fit.terms} terms, fitted to {table.source.name} at "
         f"{fit.points.min():.4g} to {fit.points.max():.4g} rad/s with residuals of {rms} (root "
@@ -43,7 +41,7 @@ def fit_note(table: Table, fit: Fit) -> str:
     )
 
 
-def fit_warning(table: Table, fit: Fit) -> str | None:
+def fit_warning(table: Table, fit: series_fits.Fit) -> str | None:
     """Warning of a fit that misses the table; None where it does not."""
     if fit.misfit is None:
         return None

@@ -15,7 +15,7 @@ from viscontact.case.quantities import Duration, Exponent, Modulus, ModulusOrZer
 class Springs(Medium):
     """Law of elements with shear moduli, or with uniaxial ones beside `youngs_modulus`."""
 
-    law_class: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
+    law_name: ClassVar[str]  # of its class in `laws`, which is imported when it is built
 
     shear_modulus: Modulus | None = Field(default=None, description="instantaneous shear modulus")
     youngs_modulus: Modulus | None = Field(
@@ -30,10 +30,11 @@ class Springs(Medium):
     def build_law(self) -> Law:
         """Return the law, from shear or uniaxial moduli."""
         others = {name: getattr(self, name) for name in self._other_keys()}
+        law_class: Any = getattr(laws, self.law_name)  # their methods differ in arguments
         if self._is_uniaxial():
-            law = self.law_class.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
+            law = law_class.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
         else:
-            law = self.law_class.from_shear(self.shear_modulus, **others)
+            law = law_class.from_shear(self.shear_modulus, **others)
         assert isinstance(law, Law)
         return law
 
@@ -59,7 +60,7 @@ class Springs(Medium):
 class Elastic(Springs):
     """A spring."""
 
-    law_class = laws.Elastic
+    law_name = "Elastic"
 
     law: Literal["elastic"]
 
@@ -67,7 +68,7 @@ class Elastic(Springs):
 class Maxwell(Springs):
     """A spring and a dashpot in series."""
 
-    law_class = laws.Maxwell
+    law_name = "Maxwell"
 
     law: Literal["maxwell"]
     viscosity: Viscosity = Field(description="of the dashpot")
@@ -76,7 +77,7 @@ class Maxwell(Springs):
 class Zener(Springs):
     """A spring in series with a Kelvin unit, the standard linear solid."""
 
-    law_class = laws.Zener
+    law_name = "Zener"
 
     law: Literal["zener"]
     delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
@@ -86,7 +87,7 @@ class Zener(Springs):
 class Burgers(Springs):
     """A Maxwell and a Kelvin unit in series."""
 
-    law_class = laws.Burgers
+    law_name = "Burgers"
 
     law: Literal["burgers"]
     viscosity: Viscosity = Field(description="of the Maxwell unit, the steady flow")
@@ -97,7 +98,7 @@ class Burgers(Springs):
 class FractionalMaxwell(Springs):
     """A spring (or a spring-pot) in series with a spring-pot."""
 
-    law_class = laws.FractionalMaxwell
+    law_name = "FractionalMaxwell"
 
     law: Literal["fractional-maxwell"]
     time: Duration = Field(description="time at which both elements have the same strain")
@@ -110,7 +111,7 @@ class FractionalMaxwell(Springs):
 class FractionalZener(Springs):
     """The standard linear solid with a spring-pot in place of its dashpot."""
 
-    law_class = laws.FractionalZener
+    law_name = "FractionalZener"
 
     law: Literal["fractional-zener"]
     equilibrium_modulus: ModulusOrZero = Field(

@@ -26,12 +26,8 @@ from viscontact.reference import (
     lee_radok_step,
     press_axisymmetric,
 )
-from viscontact.results.recorded_case import (
-    is_layered,
-    recorded_clock,
-    recorded_grid,
-    recorded_object,
-)
+from viscontact.results.recorded_case import is_layered, recorded_grid
+from viscontact.results.recorded_objects import recorded_clock, recorded_object
 from viscontact.results.run_axis import require_time
 from viscontact.units.formatting import ReadableUnit
 

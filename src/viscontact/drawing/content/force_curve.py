@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.along_run import within_span
 from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Mark, Panel
-from viscontact.results.recorded_case import recorded_object
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import SCALARS

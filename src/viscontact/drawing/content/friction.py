@@ -23,7 +23,8 @@ from viscontact.drawing.content.panel import (
     Units,
 )
 from viscontact.drawing.content.rough_theory import theory_band, theory_curves
-from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.recorded_case import case_of
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.recorded_theory import sliding_of_theory
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import SCALARS

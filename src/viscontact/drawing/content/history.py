@@ -23,14 +23,10 @@ from viscontact.drawing.content.panel import (
 from viscontact.drawing.content.temperature_course import temperature_aside
 from viscontact.mechanics.state import FRICTION, OF_CLOCKS
 from viscontact.results.margins import PREFIX, margins
-from viscontact.results.recorded_case import (
-    across_period,
-    is_prescribed,
-    prescribes_approach,
-    recorded_temperature,
-)
+from viscontact.results.recorded_case import across_period, is_prescribed, prescribes_approach
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.recorded_motion import motion_axis
+from viscontact.results.recorded_objects import recorded_temperature
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import has_friction, shown_scalars
 from viscontact.results.stated_errors import (

@@ -15,8 +15,8 @@ from viscontact.bodies.laws import Law
 from viscontact.bodies.materials.layers import creeping_laws
 from viscontact.bodies.materials.library import Points
 from viscontact.drawing.content.panel import FIRST, Axis, Curve, Ink, Mark, Panel
-from viscontact.results.recorded_case import recorded_object
-from viscontact.results.run_axis import follows_clock, law_times
+from viscontact.results.creep_times import follows_clock, law_times
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.numbers import real_array
 

@@ -11,7 +11,8 @@ import xarray as xr
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import FAINT, FIRST, SECOND, Axis, Curve, Ink, Panel, Units
 from viscontact.results.last_cycle_values import LoadCycle, last_cycle
-from viscontact.results.recorded_case import case_of, is_prescribed, recorded_object
+from viscontact.results.recorded_case import case_of, is_prescribed
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import drawn_values, is_rounding, stated_error

@@ -12,7 +12,7 @@ from viscontact.drawing.content.exact_history import exact_label, exact_sphere
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.panel import TEXT, Axis, Curve, Ink, Mark, Panel
 from viscontact.reference import LeeRadokContact
-from viscontact.results.recorded_case import recorded_object
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 

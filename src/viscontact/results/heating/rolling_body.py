@@ -13,7 +13,8 @@ from viscontact.bodies.laws import Elastic, Shift
 from viscontact.bodies.materials.layers import Layered, named_parts
 from viscontact.bodies.materials.material import Material
 from viscontact.results.heating.power_curve import FEWEST, PowerCurve
-from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.recorded_case import case_of
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.stated_errors import errors_of
 from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.formatting import format_quantity

@@ -1,27 +1,6 @@
 """Material cards of finite-element programs (Abaqus, Ansys, LS-DYNA): readers and writers."""
 
-from viscontact.bodies.materials.cards.abaqus_reader import read_abaqus
-from viscontact.bodies.materials.cards.abaqus_writer import write_abaqus
-from viscontact.bodies.materials.cards.ansys_reader import read_ansys
-from viscontact.bodies.materials.cards.ansys_writer import write_ansys
-from viscontact.bodies.materials.cards.card import Card
-from viscontact.bodies.materials.cards.dyna_reader import read_ls_dyna
-from viscontact.bodies.materials.cards.reader import (
-    is_card,
-    read_card,
-    read_cards,
-    unread_program,
-)
+import lazy_loader
 
-__all__ = [
-    "Card",
-    "is_card",
-    "read_abaqus",
-    "read_ansys",
-    "read_card",
-    "read_cards",
-    "read_ls_dyna",
-    "unread_program",
-    "write_abaqus",
-    "write_ansys",
-]
+# Names of __init__.pyi, each loaded at its first use: few cases need them.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

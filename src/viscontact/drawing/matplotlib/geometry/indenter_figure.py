@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indenter
 from viscontact.drawing.matplotlib.layout.page import Width
-from viscontact.results.recorded_case import recorded_grid, recorded_object
+from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.snapshots import labels_of, take_snapshots
 from viscontact.units.numbers import finite_array
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
-from viscontact.bodies.loads.harmonic import STEPS_PER_CYCLE
+from viscontact.bodies.loads.harmonic_history import STEPS_PER_CYCLE
 from viscontact.bodies.loads.tangential import (
     UNITS,
     TangentialLoad,
