@@ -53,7 +53,7 @@ def checked(seed):
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 @pytest.mark.parametrize(
-    "seed", [*range(2), *(pytest.param(k, marks=pytest.mark.slow) for k in range(2, 20))]
+    "seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 20))]
 )
 def test_random_sphere_is_pulled_off_within_the_bounds(seed):
     checked(seed)

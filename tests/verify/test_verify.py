@@ -25,6 +25,7 @@ LONG = (
     *("flat punch, harmonic", "TabulatedRelaxation", "TabulatedCreep", "FractionalZener"),
     *("cylinder from rest", "reciprocating wave", "under a ramp", "force triangle"),
     *("force, CreepSeries", "force, RelaxationSeries", "force, Maxwell", "force, Burgers"),
+    "sudden force, PowerLaw",
     *("slow steady", "fast steady motion, V", "moving wave in full contact"),
     *("Tabor number 0.1", "Tabor number 0.5", "Tabor number 0.7", "Tabor number 1"),
     *("that adheres, shortest range", "that adheres, long range", "that adheres, on a stage"),
