@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.mechanics.contact.adhesion.descent import Descended, Descent
+from viscontact.mechanics.contact.adhesion.descent import NEAR, Descended, Descent
 from viscontact.mechanics.contact.adhesion.newton import NewtonSearch, newton_search
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
@@ -23,6 +23,9 @@ from viscontact.mechanics.contact.problem import Guess
 
 #: Newton steps of a search from a descent.
 TRIED_STEPS = 12
+
+#: Fall of the changes of a descent from which on Newton's method is tried again [-].
+FALLEN = 1e-2
 
 #: Part of the attraction that is no change [-].
 ROUNDING = 1e-6
@@ -43,16 +46,19 @@ def solve_from(
 ) -> AdhesiveSolution | None:
     """Nearest stable state from an attraction [Pa]; None where the force is not carried."""
     descent = Descent(problem, domain, traction)
-    spent = 0
+    spent, tried = 0, None
     while True:
         reached = descent.run()
         if reached.detached:
             return None
+        if not (descent.is_spent or tried is None or _is_elsewhere(reached, tried, problem)):
+            continue
         start = Guess(reached.guess.values.copy(), reached.guess.motion)
         found = newton_search(problem, domain, start, tolerance, TRIED_STEPS)
         spent += found.convolutions
         if (found.converged and _continues(found, reached)) or descent.is_spent:
             break
+        tried = reached
     return _solution(problem, found, spent + descent.convolutions)
 
 
@@ -79,6 +85,15 @@ def released(
     return AdhesiveSolution(
         *(values, motion, gap, nowhere, 0.0, 0, 1), converged=True, traction=pulled
     )
+
+
+def _is_elsewhere(reached: Descended, tried: Descended, problem: AdhesiveProblem) -> bool:
+    """True if a search may find what it has not found from an earlier iterate."""
+    # Iterates are slow where a state has just ceased to exist, which no search finds.
+    if reached.change <= FALLEN * tried.change:
+        return True
+    moved = float(np.abs(reached.traction - tried.traction).max())
+    return moved >= NEAR * problem.law.strength
 
 
 def _continues(found: NewtonSearch, reached: Descended) -> bool:
