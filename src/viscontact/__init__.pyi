@@ -97,6 +97,7 @@ from .identification import IndentationRecord as IndentationRecord
 from .identification import Isotherm as Isotherm
 from .identification import build_master_curve as build_master_curve
 from .identification import find_contact as find_contact
+from .identification import fit_adhesion as fit_adhesion
 from .identification import fit_creep as fit_creep
 from .identification import fit_dynamic as fit_dynamic
 from .identification import fit_indentation as fit_indentation

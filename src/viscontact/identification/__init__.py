@@ -4,6 +4,7 @@ from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.found_shift import FoundShift
 from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.bodies.series_fits.quality import Misfit, Reason
+from viscontact.identification.adhesion_fit import AdhesionFit, fit_adhesion
 from viscontact.identification.contact_point import ContactPoint, find_contact
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.force_curve import ForceCurve
@@ -22,6 +23,7 @@ from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
 
 __all__ = [
+    "AdhesionFit",
     "Cantilever",
     "ContactPoint",
     "Fit",
@@ -38,6 +40,7 @@ __all__ = [
     "ShiftUncertainty",
     "build_master_curve",
     "find_contact",
+    "fit_adhesion",
     "fit_arrhenius",
     "fit_creep",
     "fit_dynamic",

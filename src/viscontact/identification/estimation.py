@@ -13,7 +13,6 @@ from scipy.special import stdtrit
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.series_fits.residual_noise import Noise, noise_of
-from viscontact.identification.candidates import Candidate
 
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
 _REACH = np.log(1e8)  # largest change of ln p from its start
@@ -21,12 +20,20 @@ _FINER = 2  # times as many nodes for the last step
 _TOUCH = 1e-9  # of the largest response: less is none
 
 
+class Named(Protocol):
+    """Unknowns with names."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names in the order of the unknowns."""
+
+
 class Problem(Protocol):
     """Measured rows, and a response to unknowns of a law and others, plus linear terms."""
 
     @property
-    def shape(self) -> Candidate:
-        """Law with unknown parameters, which are the first unknowns."""
+    def shape(self) -> Named:
+        """Law or contact with unknown parameters, which are the first unknowns."""
 
     @property
     def starts(self) -> list[Floats]:

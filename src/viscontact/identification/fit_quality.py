@@ -15,10 +15,10 @@ from viscontact.reference import SphereProfile
 from viscontact.units.formatting import format_quantity
 
 _VAGUE = 10.0  # ratio of an interval's bound to its value from which on it is undetermined
-_WIDENED = 1.5  # factor of an interval from which on its reason is given
+WIDENED = 1.5  # factor of an interval from which on its reason is given
 _SMALLER = 3.0  # times: residuals without contact that are smaller by this are not the cause
 _FEWEST = 10  # rows without contact that show a cause
-_SMALL = 1e-3  # of the largest force: no cause is looked for in smaller residuals
+SMALL = 1e-3  # of the largest force: no cause is looked for in smaller residuals
 _PERIODIC = 0.3  # part of the residuals' power in one period
 _PERIODS = 2.5  # fewer over the rows before contact are a curved baseline
 _FINER = 16  # times as many periods as the rows resolve
@@ -54,7 +54,7 @@ def fit_warnings(fit: IndentationFit) -> Iterator[str]:
     yield from _open_parameters(fit)
     if fit.misfit is not None:
         yield fit.misfit.message
-    elif fit.widening > _WIDENED and fit.residual > _SMALL:
+    elif fit.widening > WIDENED and fit.residual > SMALL:
         yield (
             f"the residuals ({100 * fit.residual:.2g} % of the largest value) are not noise: "
             f"{_cause(fit)}. The intervals are up to {fit.widening:.2g} times as wide for that"

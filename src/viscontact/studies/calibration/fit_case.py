@@ -10,7 +10,9 @@ from warnings import warn
 
 import numpy as np
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.studies.calibration.adhesive_start import adhesive_start
 from viscontact.studies.calibration.preparation import (
     Record,
     check_bounds,
@@ -143,7 +145,15 @@ def fit_case(  # noqa: PLR0913
     its readings, with the measured force and so with its scatter. Take the force as the drive where
     the machine is about as soft as the contact.
 
-    For a sphere, cone or round punch on a half-space, `fit_indentation` needs no runs.
+    For a sphere, cone or round punch on a half-space, `fit_indentation` needs no runs, and
+    `fit_adhesion` for an elastic sphere that adheres.
+
+    Where the bodies adhere, the approach drives the runs, and the force is fitted. With a
+    ``stage_stiffness`` in the load of the case the record has the approach of the body, and the
+    runs are given that of the stage. All cells are those of the case. The search also begins at
+    what `fit_adhesion` finds for a round body. Beside a jump of a run, a row has that of its forces
+    before and after it, or between, which is nearest to the record: the jump counts as far as the
+    rows tell its instant.
 
     Examples
     --------
@@ -200,17 +210,18 @@ def fit_case(  # noqa: PLR0913
     chosen = chosen_workers(workers, executor, client, at_a_time)
     with evaluating(Budget(most), journal, chosen, progress) as evaluation:
         residuals = Residuals(experiments, unknowns, evaluation)
-        found = _search(residuals, most)
+        found = _search(residuals, adhesive_start(own, experiments[0], unknowns), most)
         notes = tuple(notes_on(unknowns, found, confidence, most))
         for note in notes:
             warn(f"fit_case: {note}", AccuracyWarning, stacklevel=2)
         return result_of(residuals, found, confidence, notes, path, fixed)
 
 
-def _search(residuals: Residuals, most: int) -> Optimum:
-    """Least squares; ValueError if the runs are too few for any values."""
+def _search(residuals: Residuals, further: Floats | None, most: int) -> Optimum:
+    """Least squares from a further start, too; ValueError if the runs are too few for any."""
+    starts = [np.array([each.start for each in residuals.unknowns])]
     try:
-        return search(residuals, np.array([each.start for each in residuals.unknowns]))
+        return search(residuals, *starts, *([] if further is None else [further]))
     except BudgetSpentError:
         raise ValueError(f"runs: {most} are too few for this fit; give more") from None
 

@@ -65,6 +65,7 @@ def experiment_of(
     drive: Drive = chosen_drive(record, control, wanted)
     if drive == "case":
         _require_within(case, record)
+    _require_approach(path, case, control if drive == "case" else drive, record)
     own, coarse = cells_of(case, record, drive)
     compared_approach = (drive == "case" and control == "force") or drive == "force"
     if compared_approach and not case.has_datum(own):
@@ -89,6 +90,19 @@ def digest(record: ContactRecord) -> str:
     """SHA-256 of the columns of a record."""
     columns = (record.times, *(record.column(name) for name in record.columns))
     return hashlib.sha256(b"".join(each.tobytes() for each in columns)).hexdigest()
+
+
+def _require_approach(path: Path, case: Case, prescribed: str, record: ContactRecord) -> None:
+    """Raise ValueError where bodies that adhere are given a force, or a stage without force."""
+    if case.adhesion is None:
+        return
+    if prescribed == "force":
+        raise ValueError(
+            f"{path}: with adhesion, runs under a given force end where the bodies are pulled off; "
+            "let the approach drive them, as with load.kind: history of approach"
+        )
+    if "force" not in record.columns:
+        raise ValueError(f"{record.name}: needs a column force, which adhesion is fitted to")
 
 
 def _require_within(case: Case, record: ContactRecord) -> None:

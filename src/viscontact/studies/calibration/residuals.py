@@ -101,7 +101,7 @@ class Residuals:
         test = run.experiment
         jumps = np.append(np.diff(test.record.times) == 0, False)  # the row before each
         if test.compared == "force":
-            return force, ~jumps
+            return _seen_in_time(test, force, outcome), ~jumps
         mounting = self._mounting(test, values)
         fitted = approach + mounting.contact_point + mounting.compliance * force
         # Without force the approach is the position of the stage, not of the surface. The
@@ -110,3 +110,24 @@ class Residuals:
         if not np.isfinite(fitted[counted]).all():
             raise NoResidualsError("the approach is not defined where the record has a force")
         return fitted, counted
+
+
+def _seen_in_time(test: Experiment, force: Floats, outcome: Entry) -> Floats:
+    """Forces of a run in which bodies jump in or off, as near to the record as its rows tell.
+
+    The record shows a jump between two rows, or within a mean over some. Beside the jump of the run
+    a row may have the force before or after it, or one between: less and less of this as the jump
+    comes near the row's other side, so that residuals depend continuously on the values.
+    """
+    times, measured, seen = test.record.times, test.measured, force.copy()
+    given = (outcome.values.get(name, ()) for name in ("jump_times", "jump_forces"))
+    jumps = zip(*given, strict=True)
+    for time, change in jumps:
+        after = int(np.searchsorted(times, time))
+        if not 0 < after < times.size:
+            continue
+        part = (time - times[after - 1]) / (times[after] - times[after - 1])
+        for row, other in ((after - 1, (1 - part) * change), (after, -part * change)):
+            ends = sorted((force[row], force[row] + other))
+            seen[row] = np.clip(measured[row], *ends)
+    return seen

@@ -97,7 +97,13 @@ class RecordRun:
             states = [state for state in March(run, warns=False) if state is not None]
         chosen = np.searchsorted([state.time for state in states], rows * (1 - 1e-12))
         names = ("force", "approach")
-        return Entry({name: [float(getattr(states[n], name)) for n in chosen] for name in names})
+        found = {name: [float(getattr(states[n], name)) for n in chosen] for name in names}
+        if case.adhesion is not None:
+            events = [event for state in states for event in state.events]
+            begin = float(test.record.times[0] - rows[0])
+            found["jump_times"] = [begin + event.time for event in events]
+            found["jump_forces"] = [float(event.force[1] - event.force[0]) for event in events]
+        return Entry(found)
 
 
 def history_of(
@@ -128,7 +134,11 @@ def history_of(
     level = record.column("approach") - mounting.contact_point
     if mounting.compliance:
         level = level - mounting.compliance * record.column("force")
-    return ApproachHistory(times, level, *tilts), times, np.unique(times)
+    spring = case.load.stage_stiffness if isinstance(case.load, ApproachHistory) else None
+    if spring is not None:  # the record has the approach of the body, not of the stage
+        level = level + record.column("force") / spring
+    load = ApproachHistory(times, level, *tilts, stage_stiffness=spring)
+    return load, times, np.unique(times)
 
 
 def cells_of(case: Case, record: ContactRecord, drive: Drive) -> tuple[Grid, Grid]:
@@ -148,11 +158,14 @@ def _problem(
         tolerance=case.tolerance,
         kept=NO_FIELDS,
         temperature=case.temperature,
+        adhesion=case.adhesion,
     )
 
 
 def _coarse(run: RunSetup) -> Grid:
-    """Coarser cells over the same region; those of the run if it has few."""
+    """Coarser cells over the same region; those of the run if it has few, or a cohesive zone."""
+    if run.law is not None:
+        return run.grid
     edges = [n for n in run.grid.shape if n > 1]
     ratio = min(max(2.0, max(edges) / _LONG_EDGE), min(edges) / _SHORT_EDGE)
     if ratio < _LEAST_RATIO:

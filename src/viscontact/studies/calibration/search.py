@@ -68,12 +68,12 @@ class NoResidualsError(ValueError):
     """There are no residuals at a point; the message has the reason."""
 
 
-def search(evaluate: Evaluate, start: Floats) -> Optimum:
-    """Find the least squares; NoResidualsError if there are none at any start.
+def search(evaluate: Evaluate, *starts: Floats) -> Optimum:
+    """Find the least squares from the best start; NoResidualsError if there are none at any.
 
     BudgetSpentError if the runs are used up before the first derivatives are known.
     """
-    found = _Descent(evaluate, start)
+    found = _Descent(evaluate, starts)
     complete = True
     try:
         found.begin()
@@ -102,8 +102,8 @@ class _Descent:
 
     # Trust-region reflective (Branch, Coleman and Li 1999).
 
-    def __init__(self, evaluate: Evaluate, start: Floats) -> None:
-        self._evaluate, self._start = evaluate, start
+    def __init__(self, evaluate: Evaluate, given: Sequence[Floats]) -> None:
+        self._evaluate, self._given = evaluate, given
         self._least = np.inf
         self._penalty = np.zeros(0)
         self._starts: list[tuple[float, tuple[float, ...]]] = []
@@ -111,14 +111,14 @@ class _Descent:
         self.jacobian: Floats | None = None
 
     def begin(self) -> None:
-        """Rank the case's own values and some others in the ranges as starts."""
-        count = self._start.size
+        """Rank the given starts and some others in the ranges."""
+        count = self._given[0].size
         others = qmc.Sobol(count, scramble=False).random_base2(2 + (count > 2))[1:]
-        for point in (self._start, *others):
+        for point in (*self._given, *others):
             residuals = self._try(point)
             if residuals is not None:
                 self._starts.append((float(residuals @ residuals), tuple(point.tolist())))
-        reached = self.best if self._starts else self._start  # which raises the reason
+        reached = self.best if self._starts else self._given[0]  # which raises the reason
         self._penalty = 10.0 + np.abs(_all_residuals(self._evaluate, [reached], "coarse")[0])
 
     def descend(self) -> None:

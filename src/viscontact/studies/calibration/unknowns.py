@@ -119,11 +119,14 @@ def _of_dimension(name: str, key: str, given: Any, dimension: str) -> Range:
 def _own_part(bounds: Range, own: Any) -> float:
     """Part of the range at which the case's own value lies, or its middle."""
     try:
-        value, low, high = (
-            parse_any_quantity(text)[0] for text in (str(own), *map(bounds.value, (0.0, 1.0)))
-        )
+        return part_of(bounds, parse_any_quantity(str(own))[0])
     except ValueError:  # not a plain value
         return _MIDDLE
+
+
+def part_of(bounds: Range, value: float) -> float:
+    """Part of a range at which a value in SI units lies; that of the nearer bound beyond it."""
+    low, high = (parse_any_quantity(bounds.value(end))[0] for end in (0.0, 1.0))
     if bounds.logarithmic:
         part = math.log(value / low) / math.log(high / low) if value > 0 else 0.0
     else:
