@@ -7,11 +7,14 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.simulation.transient import setup
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 MODULUS, FORCE = 1e6, 0.1
 NO_PULL = vc.tangential_step(force_x=0.0)
+#: No mirror planes.
+NOWHERE = False, False
 #: A coefficient under which nothing slips.
 ROUGH = 9.0
 
@@ -161,6 +164,45 @@ def test_pull_after_pressing_balances_the_force():
     # The traction lifts the surface behind it and lowers that ahead.
     odd = [np.abs(states[k].pressure - states[k].pressure[::-1]).max() for k in (3, 5)]
     assert odd[1] > 0.01 * states[5].peak_pressure > 1e3 * odd[0]
+
+
+@pytest.mark.parametrize(
+    "along", [{"force_x": 0.01}, {"force_y": 0.01}, {}, {"displacement_x": 1e-6}]
+)
+def test_a_mirror_plane_changes_nothing_but_the_time(along, monkeypatch):
+    """All cells, one half, and one quarter under pressure alone."""
+    creeping = vc.Material(vc.Zener(MODULUS, 0.5 * MODULUS, MODULUS), 0.2)
+    pull = vc.TangentialHistory([1, 2], **{name: [0, last] for name, last in along.items()})
+
+    def marched():
+        return pressed(
+            *(vc.Sphere(1e-2), creeping, vc.ForceHistory([0, 1], [0.5 * FORCE, FORCE])),
+            *(vc.Grid((20, 24), (3e-3, 3e-3)), [0.0, 0.5, 1, 1.5, 2]),
+            **{"friction": 0.3, "tangential": pull, "tolerance": 1e-8},
+        )
+
+    mirrored, loads = marched(), []
+    whole_of = setup._mirrored
+    monkeypatch.setattr(setup, "_mirrored", lambda *what: loads.append(whole_of(*what)) or NOWHERE)
+    whole = marched()
+    assert loads[0] == (
+        "force_x" not in along and "displacement_x" not in along,
+        "force_y" not in along,
+    )
+    scale = whole[-1].peak_pressure
+    for one, other in zip(mirrored, whole, strict=True):
+        for name in ("pressure", "traction_x", "traction_y"):
+            np.testing.assert_allclose(
+                getattr(one, name), getattr(other, name), atol=1e-5 * scale, err_msg=name
+            )
+        np.testing.assert_allclose(one.displacement, other.displacement, rtol=1e-6)
+        assert one.approach == close_to(other.approach, rel=1e-7)
+        # Slip is known to the tolerance times the displacement, in each of five steps.
+        lost = 5e-8 * 0.3 * FORCE * other.approach
+        assert one.friction_heat == close_to(other.friction_heat, rel=1e-6, abs=lost)
+        assert one.tangential_displacement_x == close_to(
+            other.tangential_displacement_x, rel=1e-5, abs=1e-6 * other.approach
+        )
 
 
 def test_an_oblique_push_is_warned_of_where_coupling_is_neglected_only():

@@ -38,13 +38,13 @@ ARRAYS_OF_TRENDS = 2.375
 ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.5, 2.0
 
 #: Arrays of the operators and the search on the block of the contact, 62 a cell there, where it is
-#: half of the grid; of a quarter of it with both symmetries.
+#: half of the grid; of less of it with symmetries.
 ARRAYS_OF_SLIP_SEARCH = 31.0
 
-#: Further arrays of the whole grid where pressure and tractions are coupled, measured: spectra of
-#: the kernels and of three fields on four times the cells, and fields of the alternation. Each term
-#: of the law adds one of the pressure.
-ARRAYS_OF_COUPLING = 51.0
+#: Further arrays where pressure and tractions are coupled, of the whole grid and of the cells
+#: computed, measured: fields of the alternation, and spectra of the kernels and of three fields on
+#: four times the cells. Each term of the law adds one of the pressure.
+ARRAYS_OF_COUPLING, COMPUTED_ARRAYS_OF_COUPLING = 23.0, 28.0
 
 #: Arrays of the computed cells with adhesion: attraction and its slope, gap, and about ten vectors
 #: each of the basis and the directions of GMRES.
@@ -75,9 +75,11 @@ def run_memory(run: RunSetup) -> float:
     if run.problem.friction is not None:
         kept_there = sum(plan.fields_kept for plan in run.shear_plans)
         whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there
-        whole += ARRAYS_OF_SLIP_SEARCH / (1 if symmetry_of(run) is None else 4)
+        symmetry = symmetry_of(run)
+        share = 1.0 if symmetry is None else 0.5 ** sum(symmetry.mirrored)
+        whole += share * ARRAYS_OF_SLIP_SEARCH
         if run.problem.is_coupled:
-            whole += ARRAYS_OF_COUPLING + kept_there
+            whole += ARRAYS_OF_COUPLING + share * COMPUTED_ARRAYS_OF_COUPLING + kept_there
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
 
 

@@ -19,6 +19,7 @@ from viscontact.backend.transforms import (
 )
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.coupling_influence import CouplingTables, coupling_tables
+from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
 from viscontact.mechanics.halfspace.shear_filter import keep, odd_spectrum, wave_numbers
 
 
@@ -72,11 +73,16 @@ class CouplingFilter:
         return np.asarray(self._transforms.real_inverse(lines, spare, 2)[..., :ny])
 
 
-def coupling_filter(grid: Grid, transforms: Transforms | None = None) -> CouplingFilter:
-    """Maps on all cells of a grid."""
+def coupling_filter(
+    grid: Grid, transforms: Transforms | None = None, mirrored: tuple[bool, bool] = (False, False)
+) -> CouplingFilter | MirroredCouplingFilter:
+    """Maps on all cells of a grid, or on those with positive coordinates along mirrored axes."""
     if all(grid.periodic):
         return _periodic_filter(grid, transforms)
-    return block_filter(coupling_tables(grid), (grid.periodic[0], grid.periodic[1]), transforms)
+    tables, periodic = coupling_tables(grid), (grid.periodic[0], grid.periodic[1])
+    if any(mirrored):
+        return MirroredCouplingFilter(tables, mirrored, periodic, transforms)
+    return block_filter(tables, periodic, transforms)
 
 
 def block_filter(

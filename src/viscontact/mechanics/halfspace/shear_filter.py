@@ -46,7 +46,7 @@ class PairFilter(ABC):
         self.shape, self._lengths = shape, lengths
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._number = np.dtype(np.float32 if single else np.float64)
-        self._symbol = tuple(part.astype(self._number) for part in symbol)
+        self._symbol = tuple(self._cast(part) for part in symbol)
         #: Arrays of transforms by shape and kind, made once: new memory costs more than they do.
         self._arrays: dict[tuple[tuple[int, ...], np.dtype[Any]], Numbers] = {}
 
@@ -65,9 +65,7 @@ class PairFilter(ABC):
         total = copy(self)
         pairs = list(zip(weights, parts, strict=True))
         total._symbol = tuple(
-            np.asarray(sum(weight * part._symbol[entry] for weight, part in pairs)).astype(
-                self._number
-            )
+            self._cast(np.asarray(sum(weight * part._symbol[entry] for weight, part in pairs)))
             for entry in range(3)
         )
         return total
@@ -76,8 +74,14 @@ class PairFilter(ABC):
         """The same filter in single precision."""
         same = copy(self)
         same._number = np.dtype(np.float32)
-        same._symbol = tuple(part.astype(np.float32) for part in self._symbol)
+        same._symbol = tuple(same._cast(part) for part in self._symbol)
         return same
+
+    def _cast(self, part: Numbers) -> Numbers:
+        """Real or complex numbers in the precision of this filter."""
+        is_complex = np.iscomplexobj(part)
+        kind = np.result_type(self._number, np.complex64) if is_complex else self._number
+        return part.astype(kind)
 
 
 class ShearFilter(PairFilter):
@@ -207,11 +211,11 @@ def odd_spectrum(table: Floats, lengths: tuple[int, int], signs: tuple[int, int]
 def _around(table: Floats, lengths: tuple[int, int], signs: tuple[int, int]) -> Floats:
     """Kernel on both sides of a cell, of its coefficients on one."""
     for axis, length in enumerate(lengths):
-        table = _wrapped(table, axis, length, signs[axis])
+        table = wrapped(table, axis, length, signs[axis])
     return table
 
 
-def _wrapped(table: Floats, axis: int, length: int, sign: int) -> Floats:
+def wrapped(table: Floats, axis: int, length: int, sign: int) -> Floats:
     """Kernel at the offsets 0, 1, ... (-2, -1) of a transform; in a period it is as it is."""
     cells = table.shape[axis]
     if length == cells:

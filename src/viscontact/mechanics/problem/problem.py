@@ -234,7 +234,7 @@ class Problem:
             for clock, shift in zip(self.clocks, shifts, strict=True)
         )
 
-    @property
+    @cached_property
     def is_coupled(self) -> bool:
         """True if pressure and tractions along the surface act on each other."""
         if self.friction is None or not self.friction.coupling:

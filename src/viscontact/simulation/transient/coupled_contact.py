@@ -33,6 +33,7 @@ from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.region import Region
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.halfspace.coupling_filter import CouplingFilter, coupling_filter
+from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.transient.coupling_history import CouplingHistory, CouplingStep
@@ -47,6 +48,9 @@ from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import SlipGuess, solved_on
 from viscontact.simulation.transient.step_solution import StepSolution
+
+#: Operators between tractions and displacement into the surface.
+Coupling = CouplingFilter | MirroredCouplingFilter
 
 #: Alternations of one step.
 MOST_ALTERNATIONS = 40
@@ -70,14 +74,13 @@ class CoupledContact(FrictionalContact):
     def __init__(self, run: RunSetup, friction: Friction, load: TangentialLoad) -> None:
         super().__init__(run, friction, load)
         self._memory = CouplingHistory(run)
-        self._operator = _operator_of(run)
+        self._operator, self._computed = _operator_of(run), _computed_cells(run)
         #: Operators of regions, which are kept.
-        self._block: tuple[Region, CouplingFilter] | None = None
+        self._block: tuple[Region, Coupling] | None = None
 
     def earlier_lift(self, step: TimeStep) -> Floats:
         """Displacement into the surface at the end of a step by earlier tractions [m]."""
-        past = self._respond(step).past
-        return self._operator.normal(past) if past.any() else np.zeros(past.shape[1:])
+        return self._lift(self._respond(step).past)
 
     def equilibrium(
         self,
@@ -91,7 +94,7 @@ class CoupledContact(FrictionalContact):
         response = self._respond(step)
         mixing, wanted = AndersonMixing(), max(tolerance, FIRST_TOLERANCE)
         traction, slip = self._guess(step), None
-        lift = self._lift(response, traction)
+        lift = self._lift(response.of_traction(traction))
         contact: NormalContact | None = None
         for _ in range(MOST_ALTERNATIONS):
             lifted = replace(problem, open_gap=problem.open_gap + lift)
@@ -106,7 +109,7 @@ class CoupledContact(FrictionalContact):
             along = _tolerance_along(wanted, tolerance, contact, slip)
             slip = self._slip(step, response, contact, start, along)
             traction = slip.traction
-            reached = self._lift(response, traction)
+            reached = self._lift(response.of_traction(traction))
             held = replace(problem, open_gap=problem.open_gap + reached)
             checked = contact_residual(held, domain.whole, guess)
             error = max(checked.error, slip.residual)
@@ -118,7 +121,8 @@ class CoupledContact(FrictionalContact):
                     in_contact=checked.in_contact,
                     residual=error,
                 )
-                gap = _bipotential_gap(slip, contact, checked.gap, self._coefficient)
+                opened = domain.expand_by_symmetry(checked.gap)
+                gap = _bipotential_gap(slip, contact, opened, self._coefficient)
                 return solved, JointSlip(replace(slip, duality_gap=gap), reached)
             wanted = max(LAST * tolerance, min(wanted, FORCING * checked.error))
             lift = mixing.next(lift, reached)
@@ -140,11 +144,12 @@ class CoupledContact(FrictionalContact):
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
 
-    def _lift(self, response: CouplingStep, traction: Floats) -> Floats:
-        """Displacement into the surface by new tractions [m]."""
-        if not traction.any():
-            return np.zeros(traction.shape[1:])
-        return self._operator.normal(response.of_traction(traction))
+    def _lift(self, sums: Floats) -> Floats:
+        """Displacement of the computed cells into the surface by sums Q of all cells [m]."""
+        computed = sums[:, *self._computed]
+        if not computed.any():
+            return np.zeros(computed.shape[1:])
+        return self._operator.normal(computed)
 
     def _slip(
         self,
@@ -164,7 +169,7 @@ class CoupledContact(FrictionalContact):
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way))
 
-    def _on(self, region: Region) -> CouplingFilter:
+    def _on(self, region: Region) -> Coupling:
         """Operator on a region."""
         if self._block is None or self._block[0] != region:
             self._block = region, self._operator.within(region.shape)
@@ -173,7 +178,8 @@ class CoupledContact(FrictionalContact):
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
         super().map_fields(run, enlargement)
-        self._operator, self._block = _operator_of(run), None
+        self._operator, self._computed = _operator_of(run), _computed_cells(run)
+        self._block = None
         self._memory.map_fields(_growing(enlargement))
 
     def restart_data(self) -> RestartData:
@@ -186,8 +192,17 @@ class CoupledContact(FrictionalContact):
         self._memory.restore(restart_data["memory"])
 
 
-def _operator_of(run: RunSetup) -> CouplingFilter:
-    return coupling_filter(run.grid, transforms_by(run.transforms, run.threads))
+def _operator_of(run: RunSetup) -> Coupling:
+    return coupling_filter(run.grid, transforms_by(run.transforms, run.threads), run.mirrored)
+
+
+def _computed_cells(run: RunSetup) -> tuple[slice, slice]:
+    """Cells beyond the mirror planes of a run."""
+    rows, columns = (
+        slice(count // 2 if even else 0, None)
+        for count, even in zip(run.grid.shape, run.mirrored, strict=True)
+    )
+    return rows, columns
 
 
 def _growing(enlargement: GridEnlargement) -> Callable[[Floats], Floats]:
@@ -206,10 +221,17 @@ def _contact_of(
     found: ContactSolution, problem: ContactProblem, domain: ContactDomain
 ) -> NormalContact:
     """Normal contact of a solution on all cells; a copy, as the next solve works in its memory."""
-    pressure = found.found.pressure.copy()
     largest = problem.compliance * float(np.abs(found.found.unit_displacement).max())
-    force = float(pressure.sum()) * domain.grid.cell_area
-    return NormalContact(pressure, found.gap, found.in_contact, force, largest)
+    force = float(found.found.pressure.sum()) * domain.grid.cell_area * domain.symmetry_count
+    whole = domain.expand_by_symmetry
+    pressure, gap, in_contact = (
+        whole(found.found.pressure),
+        whole(found.gap),
+        whole(found.in_contact),
+    )
+    if not any(domain.mirrored):
+        pressure = pressure.copy()
+    return NormalContact(pressure, gap, in_contact, force, largest)
 
 
 def _bipotential_gap(

@@ -77,7 +77,7 @@ class RunSetup:
         """True if the grid is automatic, and may be enlarged when the contact outgrows it."""
         return self.problem.automatic_grid is not None
 
-    @property
+    @cached_property
     def mirrored(self) -> tuple[bool, bool]:
         """True for x = 0 and for y = 0 if shape and load are even: one half is computed."""
         return _mirrored(self.problem, self.open_gap, self.grid)
@@ -201,10 +201,13 @@ def _gap(indenter: Indenter, grid: Grid) -> Floats:
 
 
 def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
-    if problem.is_coupled:  # a force along the surface tilts the pressure
-        return False, False
     ends_alike = all(body.is_even for body in problem.ended_bodies.values())
     loads = (ends_alike and problem.load.is_even(0), problem.load.is_even(1))
+    if problem.is_coupled and problem.tangential is not None:
+        # A force along the surface tilts the pressure its way, a torque makes it even about the
+        # axis only.
+        along_x, along_y, turning = problem.tangential.acts
+        loads = loads[0] and not along_x and not turning, loads[1] and not along_y and not turning
     if problem.motion.stands:
         return mirrored_axes(grid, open_gap, loads)
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.

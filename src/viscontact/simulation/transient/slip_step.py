@@ -51,12 +51,14 @@ class SlipStep:
 
 
 def symmetry_of(run: RunSetup) -> ShearSymmetry | None:
-    """Symmetry of the tractions, if the normal contact has both mirror planes and one load acts."""
-    load = run.problem.tangential
+    """Symmetry of tractions: of coupled ones the pressure's, of others with both mirror planes."""
+    load, mirrored = run.problem.tangential, run.mirrored
+    if run.problem.is_coupled:
+        return ShearSymmetry.of_pressure(mirrored) if any(mirrored) else None
     acting = [mode for mode in range(3) if load is not None and load.acts[mode]]
-    if not all(run.mirrored) or len(acting) > 1:
+    if not all(mirrored) or len(acting) > 1:
         return None
-    return ShearSymmetry(acting[0] if acting else 0)
+    return ShearSymmetry.of_load(acting[0] if acting else 0)
 
 
 def shift_constraints(

@@ -64,7 +64,7 @@ class StepProblem:
     drive: float  # force [N] or approach [m] over which references are extrapolated
     problem: ContactProblem
     guess: Guess | None
-    earlier_lift: Floats | None = None  # displacement by earlier tractions [m]
+    earlier_lift: Floats | None = None  # displacement by earlier tractions [m], cells computed
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,7 @@ class TrialStep:
     error: StepError
     adhesive: AdhesiveStep | None = None
     joint: JointSlip | None = None  # tractions that are coupled with the pressure
-    earlier_lift: Floats | None = None  # displacement by earlier tractions [m]
+    earlier_lift: Floats | None = None  # displacement by earlier tractions [m], cells computed
 
     @property
     def lift(self) -> Floats | None:
@@ -425,8 +425,8 @@ def _on_full_grid(
         "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
     }
     reference, in_contact = trial.reference.fields, domain.expand_by_symmetry(solution.in_contact)
-    if lift is not None:  # coupled contacts are not mirrored
-        fields["displacement"] = fields["displacement"] + lift
+    if lift is not None:
+        fields["displacement"] = fields["displacement"] + domain.expand_by_symmetry(lift)
     for field in (*fields.values(), reference, in_contact):
         field.flags.writeable = False  # later steps start from them
     cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images

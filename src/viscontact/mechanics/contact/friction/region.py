@@ -13,6 +13,10 @@ from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.problem import ShearBlock
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift
+from viscontact.mechanics.halfspace.halved_shear import (
+    halved_shear_convolution,
+    halved_shear_preconditioner,
+)
 from viscontact.mechanics.halfspace.mirrored_shear import (
     Evenness,
     mirrored_shear_convolution,
@@ -55,25 +59,38 @@ class Region:
 
 @dataclass(frozen=True)
 class ShearSymmetry:
-    """Symmetry across x = 0 and y = 0 of tractions under one force, or under a torque."""
+    """Symmetry of tractions across x = 0, y = 0 or both."""
 
-    mode: int  # 0 and 1 for a force along x and y, 2 for a torque
+    mirrored: tuple[bool, bool]  # True along x and along y where there is a mirror plane
+    even: Evenness  # along x and y if the component x is even there; y is odd where it is even
+    modes: tuple[bool, bool, bool]  # True for motions and resultants that are not zero
+
+    @classmethod
+    def of_load(cls, mode: int) -> ShearSymmetry:
+        """Symmetry under one force, along x (0) or y (1), or a torque (2), of a pressure."""
+        even, both = (mode != 1, mode == 0), (True, True)
+        return cls(both, even, (mode == 0, mode == 1, mode == 2))
+
+    @classmethod
+    def of_pressure(cls, mirrored: tuple[bool, bool]) -> ShearSymmetry:
+        """Symmetry of tractions that the pressure makes, and a force along a plane of it."""
+        return cls(mirrored, (False, True), (not mirrored[0], not mirrored[1], False))
 
     @property
-    def even(self) -> Evenness:
-        """True along x and along y if the component x is even there; y is odd where it is not."""
-        return self.mode != 1, self.mode == 0
+    def halved(self) -> int | None:
+        """The only axis that is mirrored; None if both are."""
+        return None if all(self.mirrored) else self.mirrored.index(True)
 
-    @property
-    def modes(self) -> tuple[bool, bool, bool]:
-        """Motions and resultants that are not zero."""
-        return self.mode == 0, self.mode == 1, self.mode == 2
+    def whole(self, shape: tuple[int, int]) -> tuple[int, int]:
+        """Numbers of cells of a block, with their mirror images."""
+        nx, ny = (count * (1 + twice) for count, twice in zip(shape, self.mirrored, strict=True))
+        return nx, ny
 
 
 class ShearDomain:
     """Half-spaces under shear on a grid, with operators on regions, which are kept.
 
-    With a symmetry, regions are of the quarter with positive coordinates.
+    With a symmetry, regions are of the cells with positive coordinates along mirrored axes.
     """
 
     def __init__(
@@ -94,11 +111,13 @@ class ShearDomain:
         ]
         if self._symmetry is None:
             return Region(*spans)
-        half_x, half_y = (
-            (count // 2, max(span[1], count - span[0]))
-            for count, span in zip(self.grid.shape, spans, strict=True)
+        rows, columns = (
+            (count // 2, max(span[1], count - span[0])) if mirrored else span
+            for count, span, mirrored in zip(
+                self.grid.shape, spans, self._symmetry.mirrored, strict=True
+            )
         )
-        return Region(half_x, half_y)
+        return Region(rows, columns)
 
     def spread(self, region: Region, fields: Numbers) -> Numbers:
         """Fields of a region on the whole grid, 0 elsewhere; components x and y, or a scalar."""
@@ -108,6 +127,8 @@ class ShearDomain:
         if self._symmetry is None:
             return whole
         for axis in (-2, -1):
+            if not self._symmetry.mirrored[axis]:
+                continue
             half = self.grid.shape[axis] // 2
             index = [slice(None)] * whole.ndim
             index[axis] = slice(half, None)
@@ -147,26 +168,34 @@ class ShearDomain:
         x, y = self.grid.x[rows, None], self.grid.y[None, columns]
         if self._symmetry is None:
             return RigidShift(x, y, self.grid.cell_area)
-        return RigidShift(x, y, 4 * self.grid.cell_area, self._symmetry.modes)
+        images = 2 ** sum(self._symmetry.mirrored)
+        return RigidShift(x, y, images * self.grid.cell_area, self._symmetry.modes)
 
     def _preconditioner(self, shape: tuple[int, int], kappa: float) -> PairFilter:
         options: Any = {"transforms": self._transforms}
         if self._symmetry is None:
             return shear_preconditioner(shape, self.grid.cell_size, kappa, **options)
-        even = self._symmetry.even
+        even, halved = self._symmetry.even, self._symmetry.halved
+        if halved is not None:
+            options |= {"even": even[halved]}
+            return halved_shear_preconditioner(shape, self.grid.cell_size, kappa, halved, **options)
         return mirrored_shear_preconditioner(shape, self.grid.cell_size, kappa, even, **options)
 
     def _made(self, shape: tuple[int, int]) -> Parts:
         grid, options = self.grid, {"transforms": self._transforms}
         if self._symmetry is not None:
-            shape = 2 * shape[0], 2 * shape[1]
+            shape = self._symmetry.whole(shape)
         if all(grid.periodic):
             return periodic_shear_convolution(shape, grid.cell_size, **options)
         repeats = any(grid.periodic)
         tables = shear_tables(grid).within(shape) if repeats else self._table_for(shape)
-        if self._symmetry is not None:
-            return mirrored_shear_convolution(tables, self._symmetry.even, **options)
-        return shear_convolution(tables, (grid.periodic[0], grid.periodic[1]), **options)
+        periodic = grid.periodic[0], grid.periodic[1]
+        if self._symmetry is None:
+            return shear_convolution(tables, periodic, **options)
+        even, halved = self._symmetry.even, self._symmetry.halved
+        if halved is None:
+            return mirrored_shear_convolution(tables, even, **options)
+        return halved_shear_convolution(tables, periodic, halved, even=even[halved], **options)
 
     def _table_for(self, shape: tuple[int, int]) -> ShearTables:
         """Coefficients of a block, out of those of a larger one that it may grow to."""

@@ -1,0 +1,120 @@
+"""Maps between traction along the surface and displacement into it, of mirrored contacts.
+
+The pressure is even across each mirror plane; the traction across the plane is odd there, the other
+component even. Only cells with positive coordinates along mirrored axes are kept, and transformed
+by cosines and sines there (`mirrored_shear`), and by Fourier transforms along the other axis.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.transforms import (
+    Transforms,
+    fast_length,
+    fastest_transforms,
+    transforms_by,
+)
+from viscontact.mechanics.halfspace.coupling_influence import CouplingTables
+from viscontact.mechanics.halfspace.halved_shear import mirrored_waves, part_along
+from viscontact.mechanics.halfspace.shear_filter import wrapped
+
+
+class MirroredCouplingFilter:
+    """Maps of a unit coupling c J = 1 on the cells beyond the mirror planes of a block [m]."""
+
+    def __init__(
+        self,
+        tables: CouplingTables,
+        mirrored: tuple[bool, bool],
+        periodic: tuple[bool, bool],
+        transforms: Transforms | None = None,
+    ) -> None:
+        self._tables, self._mirrored, self._periodic = tables, mirrored, periodic
+        self._transforms = transforms or transforms_by(fastest_transforms())
+        counts = tables.along_x.shape
+        nx, ny = (n // 2 if even else n for n, even in zip(counts, mirrored, strict=True))
+        self.shape = nx, ny
+        self._lengths = [
+            n if repeats else fast_length(n if even else 2 * n - 1)
+            for n, even, repeats in zip(counts, mirrored, periodic, strict=True)
+        ]
+        #: Axis of Fourier transforms, if any.
+        self._plain = mirrored.index(False) if not all(mirrored) else None
+        self._symbol = tuple(
+            self._waves(table, own) for own, table in enumerate((tables.along_x, tables.along_y))
+        )
+
+    def within(self, shape: tuple[int, int]) -> MirroredCouplingFilter:
+        """The same maps on a smaller block, of a shape without mirror images."""
+        nx, ny = (n * (1 + even) for n, even in zip(shape, self._mirrored, strict=True))
+        tables = self._tables.within((nx, ny))
+        return MirroredCouplingFilter(tables, self._mirrored, self._periodic, self._transforms)
+
+    def normal(self, traction: Floats) -> Floats:
+        """Displacement into the surface under tractions along it [Pa m]."""
+        terms = []
+        for own, (field, symbol) in enumerate(zip(traction, self._symbol, strict=True)):
+            spectrum = self._forward(field, own)
+            if self._mirrored[own]:  # sines of k = 1, 2, ... M to cosines of k = 0, 1, ...
+                moved = np.zeros_like(spectrum)
+                moved[part_along(own, slice(1, None))] = spectrum[part_along(own, slice(-1))]
+                spectrum = moved
+            terms.append(spectrum * symbol)
+        return self._inverse(terms[0] + terms[1], None)
+
+    def along(self, pressure: Floats) -> Floats:
+        """Displacement along the surface under pressure [Pa m], (2, nx, ny)."""
+        spectrum, found = self._forward(pressure, None), []
+        for own, symbol in enumerate(self._symbol):
+            if self._mirrored[own]:
+                moved = np.zeros_like(spectrum)
+                given = spectrum * symbol
+                moved[part_along(own, slice(-1))] = given[part_along(own, slice(1, None))]
+            else:
+                moved = spectrum * -symbol
+            found.append(self._inverse(moved, own))
+        return np.stack(found)
+
+    def _waves(self, table: Floats, own: int) -> Numbers:
+        """Symbol of a kernel that is odd along an axis: of sines to cosines, or imaginary."""
+        found: Numbers = table
+        factor: complex = 1.0
+        if self._plain is not None:
+            sign = -1 if self._plain == own else 1
+            kernel = wrapped(table, self._plain, self._lengths[self._plain], sign)
+            waves = np.fft.rfft(kernel, axis=self._plain)
+            found, factor = (waves.imag, 1j) if sign < 0 else (waves.real, 1.0)
+        for axis in (0, 1):
+            if self._mirrored[axis]:
+                found = mirrored_waves(found, self._lengths, axis, -1 if axis == own else 1)
+                found = found[part_along(axis, slice(-1))]
+                factor = -factor if axis == own else factor
+        return np.ascontiguousarray(found) * factor
+
+    def _forward(self, field: Floats, odd: int | None) -> Numbers:
+        """Spectrum of a padded field that is odd along one axis, if that is mirrored."""
+        transforms = self._transforms
+        padded = np.zeros(self._lengths)
+        padded[: self.shape[0], : self.shape[1]] = field
+        for axis in (0, 1):
+            if self._mirrored[axis]:
+                turn = transforms.sine_forward if axis == odd else transforms.cosine_forward
+                padded = turn(padded, axis)
+        if self._plain is None:
+            return padded
+        waves = list(self._lengths)
+        waves[self._plain] = waves[self._plain] // 2 + 1
+        return transforms.real_forward(padded, np.empty(waves, np.complex128), self._plain)
+
+    def _inverse(self, spectrum: Numbers, odd: int | None) -> Floats:
+        """Field of a spectrum, odd along one axis if that is mirrored, without what was padded."""
+        transforms, field = self._transforms, spectrum
+        if self._plain is not None:
+            field = transforms.real_inverse(spectrum, np.empty(self._lengths), self._plain)
+        for axis in (0, 1):
+            if self._mirrored[axis]:
+                turn = transforms.sine_inverse if axis == odd else transforms.cosine_inverse
+                field = turn(np.ascontiguousarray(field), axis)
+        return np.asarray(field[: self.shape[0], : self.shape[1]])
