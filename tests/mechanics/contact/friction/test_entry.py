@@ -114,3 +114,14 @@ def test_the_edge_of_the_body_has_no_slope():
     pressure = np.where(np.isfinite(gap), 1.0, 0.0)
     found = entered(pressure, np.zeros(gap.shape), gap, (1.0, 1.0), 1.0)
     assert np.isfinite(found).all()
+
+
+def test_mirror_images_enter_alike():
+    """Though rounding tells their gaps apart: the area inside is of all cells of one gap."""
+    grid, pressure = hertz(32)
+    before, gap = sphere_on(grid, 0.6)
+    noisy = gap * (1 + 1e-12 * np.random.default_rng(0).normal(size=gap.shape))
+    xx, _, yy = entered(pressure, before, noisy, grid.cell_size, 0.4)
+    assert xx.any()
+    np.testing.assert_allclose(xx, xx[::-1], rtol=1e-9, atol=1e-9 * xx.max())
+    np.testing.assert_allclose(xx, yy.T, rtol=1e-9, atol=1e-9 * xx.max())

@@ -29,6 +29,9 @@ from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 #: Contact radii up to which a cell is near the edge.
 NEAR = 1.001
 
+#: Difference of gaps over the largest that is rounding, and the tolerance of the solver.
+SAME = 1e-6
+
 
 def entry_compliance(
     contact: NormalContact,
@@ -59,10 +62,15 @@ def entry_compliance(
 
 def _radii(enters: Bools, held: int, gap: Floats) -> Floats:
     """Distance of cells that enter, in the radii of a round contact before; inf without one."""
-    # Cells enter in the order of their gaps: the area inside is known when each does.
-    order = np.argsort(gap[enters], kind="stable")
+    # Cells enter in the order of their gaps: the area inside is known when each does. Those of one
+    # gap, as mirror images, enter together.
+    heights = gap[enters]
+    order = np.argsort(heights, kind="stable")
+    rises = np.diff(heights[order]) > SAME * heights[order[-1]]
+    group = np.append(0, np.cumsum(rises))
+    mean = np.bincount(group, np.arange(order.size)) / np.bincount(group)
     area = np.empty(order.size)
-    area[order] = held + np.arange(order.size) + 0.5
+    area[order] = held + mean[group] + 0.5
     return np.sqrt(area / held) if held else np.full(order.size, np.inf)
 
 
