@@ -6,10 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from tests.studies.calibration.experiments import BALL, triangle, written
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.case import read_case
+from viscontact.studies.calibration.preparation import experiment_of
 from viscontact.studies.calibration.residuals import Residuals
 from viscontact.studies.calibration.response import Experiment, Mounting, RecordRun
 from viscontact.studies.journal import Entry
@@ -51,3 +54,41 @@ def test_runs_on_the_cells_of_the_case_have_steps_half_as_long(tmp_path: Path) -
     # Within the tolerance of the solver; steps through the rows differ by 1 %.
     np.testing.assert_allclose(found, other[::2], rtol=1e-6)
     assert np.abs(np.array(found) - through_rows).max() > 5e-3 * max(found)
+
+
+#: A body that grows under a ball to which it sticks, pushed along a little.
+DISSIMILAR = """
+indenter: {shape: sphere, radius: 5 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.2}
+friction: {coefficient: 5}
+tangential: {kind: ramp, force_x: 10 mN, duration: 4 s}
+load: {kind: step, force: 0.5 N}
+time: {end: 4 s, steps: 4}
+grid: {shape: [24, 24], size: [4 mm, 4 mm]}
+"""
+
+
+def test_runs_have_the_friction_of_the_case(tmp_path: Path) -> None:
+    times = np.arange(5.0)
+    record = vc.ContactRecord(times, 0.125 * times, times)
+    case = read_case(written(tmp_path, DISSIMILAR))
+    whole = vc.simulate(
+        *(case.indenter, case.material, case.load, case.grid, times),
+        friction=case.friction,
+        tangential=case.tangential,
+    )
+    without = vc.simulate(case.indenter, case.material, case.load, case.grid, times)
+    test = experiment_of(tmp_path / "ball.yaml", {}, case, record, "case")
+    run = RecordRun(replace(test, coarse_cells=test.own_cells), {}, Mounting(), "coarse")
+    found = run().values["approach"]
+    np.testing.assert_allclose(found, whole.approach, rtol=1e-6)
+    # Spence (1968): a body that sticks is a few per cent stiffer.
+    assert 0.9 < found[-1] / float(without.approach[-1]) < 0.99
+
+
+def test_tangential_load_needs_the_times_of_the_case(tmp_path: Path) -> None:
+    path = written(tmp_path, DISSIMILAR)
+    record = vc.ContactRecord(np.arange(5.0), 0.1 * np.arange(5.0), 1e-6 * np.arange(5.0))
+    with pytest.raises(ValueError, match=r"tangential: its times .*--drive case"):
+        experiment_of(path, {}, read_case(path), record, "force")
+    assert experiment_of(path, {}, read_case(path), record, "case").drive == "case"

@@ -63,6 +63,12 @@ def experiment_of(
             "them, as load.kind: step"
         )
     drive: Drive = chosen_drive(record, control, wanted)
+    if case.tangential is not None and drive != "case":
+        raise ValueError(
+            f"{path}: tangential: its times are those of the case, and the {drive} that is "
+            "prescribed has those of the record; leave out tangential, or take the load of the "
+            "case: drive='case' (--drive case)"
+        )
     if drive == "case":
         _require_within(case, record)
     _require_approach(path, case, control if drive == "case" else drive, record)

@@ -158,6 +158,8 @@ def _problem(
         tolerance=case.tolerance,
         kept=NO_FIELDS,
         temperature=case.temperature,
+        friction=case.friction,
+        tangential=case.tangential,
         adhesion=case.adhesion,
     )
 
