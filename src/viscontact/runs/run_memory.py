@@ -44,7 +44,7 @@ ARRAYS_OF_SLIP_SEARCH = 31.0
 #: Further arrays where pressure and tractions are coupled, of the whole grid and of the cells
 #: computed, measured: fields of the alternation, and spectra of the kernels and of three fields on
 #: four times the cells. Each term of the law adds one of the pressure.
-ARRAYS_OF_COUPLING, COMPUTED_ARRAYS_OF_COUPLING = 23.0, 28.0
+ARRAYS_OF_COUPLING, COMPUTED_ARRAYS_OF_COUPLING = 27.0, 30.0
 
 #: Arrays of the computed cells with adhesion: attraction and its slope, gap, and about ten vectors
 #: each of the basis and the directions of GMRES.
