@@ -21,8 +21,9 @@ from viscontact.mechanics.contact.adhesion.problem import (
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.problem import Guess
 
-#: Newton steps of a search from a descent.
-TRIED_STEPS = 12
+#: Newton steps of a search from a descent, and of the last one, after which there is no other way:
+#: the front of a law that ends abruptly may go to and fro for more than twenty of them.
+TRIED_STEPS, LAST_STEPS = 12, 60
 
 #: Fall of the changes of a descent from which on Newton's method is tried again [-].
 FALLEN = 1e-2
@@ -54,7 +55,8 @@ def solve_from(
         if not (descent.is_spent or tried is None or _is_elsewhere(reached, tried, problem)):
             continue
         start = Guess(reached.guess.values.copy(), reached.guess.motion)
-        found = newton_search(problem, domain, start, tolerance, TRIED_STEPS)
+        steps = LAST_STEPS if descent.is_spent else TRIED_STEPS
+        found = newton_search(problem, domain, start, tolerance, steps)
         spent += found.convolutions
         if (found.converged and _continues(found, reached)) or descent.is_spent:
             break
