@@ -24,7 +24,7 @@ from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.record import indenter_profile
 from viscontact.reference import SphereProfile
 
-#: Tabor numbers between which one is told: beyond them the curves are those of the limits.
+#: Tabor numbers that a fit can determine: beyond them the curves are those of the limits.
 _LEAST_TABOR, _LARGEST_TABOR = 0.02, 20.0
 #: Tabor numbers of an interval under which the other values are found.
 _TRIED = 6
@@ -83,7 +83,7 @@ class AdhesionFit:
 
     @property
     def adhesion(self) -> Adhesion:
-        """Adhesion by Dugdale's law, ready for `viscontact.simulate`; without a told range None."""
+        """Adhesion by Dugdale's law for `viscontact.simulate`; range None if not determined."""
         length = self.parameters["range"] if self.tells_range else None
         return Adhesion(self.parameters["work"], range=length, law="dugdale")
 
@@ -150,9 +150,9 @@ def fit_adhesion(
 
     The interval of the Tabor number contains those for which the least squares exceed the least
     ones by no more than Student's t allows (profile likelihood). Where that of no range is among
-    them, the range is not told, and the parameters are those of no range. The other intervals cover
-    those of the linearised models under all Tabor numbers of the interval, as modulus and work
-    depend strongly, and not linearly, on one that the curve hardly tells.
+    them, the range is not determined, and the parameters are those of no range. The other intervals
+    cover those of the linearised models under all Tabor numbers of the interval, as modulus and
+    work depend strongly, and not linearly, on one that the curve hardly tells.
 
     Of a body that creeps, values are fitted by runs: `fit_case`, from a case with a section
     ``adhesion`` and a ``stage_stiffness``.
@@ -205,7 +205,7 @@ class _Search:
     known: dict[float, Estimate] = field(default_factory=dict)  # by Tabor number
 
     def fit(self, poisson_ratio: float) -> AdhesionFit:
-        """The fit, of no range where none is told."""
+        """The fit; without a range where the curve does not determine one."""
         best = self._best()
         found, limit = self._under(best), self._under(math.inf)
         chance = (found.widening * found.quantile(self.confidence)) ** 2 / found.noise.freedom
