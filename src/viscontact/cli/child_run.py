@@ -46,6 +46,10 @@ def _import_run() -> None:
         with suppress(Exception):
             for name in ("run.execution", "shell", "sweep.execution", "sweep.single_task"):
                 import_module(f"viscontact.cli.{name}")
+            for name in ("indenters", "laws", "loads"):  # of any kind that a case may name
+                kinds = import_module(f"viscontact.bodies.{name}")
+                for kind in kinds.__all__:
+                    getattr(kinds, kind)
 
 
 def _code_for_parent(end: CommandError) -> int:
