@@ -88,6 +88,21 @@ class Operator(Protocol):
         ...
 
 
+def _rows_from_plane(
+    borders: tuple[int | None, int | None], begin: int, end: int
+) -> tuple[int, int]:
+    """Rows of the convolution, which begins at a plane, and the place of a block among them.
+
+    From the plane at +x, if there is no other, they are counted back. Between two planes the
+    convolution takes all rows.
+    """
+    before, after = borders
+    if before is None:
+        assert after is not None  # at least one plane is given
+        return after - begin, after - end
+    return (end if after is None else after) - before, begin - before
+
+
 class EndedConvolution:
     """Surface displacement of a body that ends at one plane across x, or at two.
 
@@ -113,15 +128,8 @@ class EndedConvolution:
         begin = rows.start if before is None else max(rows.start, before)
         end = rows.stop if after is None else min(rows.stop, after)
         self._inside = slice(begin - rows.start, end - rows.start)
-        # The convolution begins at a plane; between two of them it takes all rows.
         self._turned = before is None
-        origin, last = (after, begin) if self._turned else (before, end)
-        if before is not None and after is not None:
-            last = after
-        assert origin is not None  # at least one plane is given
-        assert last is not None
-        count = abs(last - origin)
-        start = abs((end if self._turned else begin) - origin)
+        count, start = _rows_from_plane(ended.borders, begin, end)
         self._rows = slice(start, start + end - begin)
         ny = self.shape[1] * (1 + mirrored)
         periodic = bool(ended.coefficients.size)
@@ -140,12 +148,10 @@ class EndedConvolution:
             if count == end - begin
             else np.zeros((count, self.shape[1]), np.float32 if single else np.float64)
         )
+        own = slice(begin - ended.first, end - ended.first)
         self._corrections = [
             EndCorrection(
-                basis,
-                _rows_of_basis(basis, slice(begin - ended.first, end - ended.first), side),
-                ny,
-                cell_size,
+                *(basis, _rows_of_basis(basis, own, side), ny, cell_size),
                 turned=bool(side),
                 mirrored=mirrored,
                 single=single,
