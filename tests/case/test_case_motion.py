@@ -43,6 +43,20 @@ def test_file_gives_the_path_along_both_axes_and_belongs_to_the_run(tmp_path: Pa
     assert list(case.files) == [("motion", "file")]
 
 
+def test_creepage_is_a_share_of_a_body_that_rolls(tmp_path: Path) -> None:
+    swung = {"kind": "reciprocating", "amplitude": "0.3 mm", "period": "4 s", "cycles": 2}
+    grips = {"friction": {"coefficient": 0.3, "coupling": False}}
+    for motion in (TRAVEL, swung):
+        for given in ("0.3 %", 0.003):
+            found = moving(tmp_path, motion={**motion, "creepage": given}, **grips).motion
+            assert found.creepage == close_to(0.003)
+            assert found.rolling is True
+    with pytest.raises(ValueError, match=r"motion\.creepage"):
+        moving(tmp_path, motion={**TRAVEL, "creepage": "120 %"}, **grips)
+    with pytest.raises(ValueError, match="a body that rolls"):
+        moving(tmp_path, motion={**TRAVEL, "creepage": 0.1, "rolling": False}, **grips)
+
+
 def test_body_stands_without_a_motion(tmp_path: Path) -> None:
     assert read(tmp_path, grid=GRID, load=LOAD).motion == STANDING
 

@@ -40,13 +40,18 @@ def problem(cells):
         across = 0.005 if "{kind}" == "pulled aside" else 0.0
         pull = vc.TangentialHistory([0.5, 2.0], force_x=[0, 0.01], force_y=[0, across])
         grip = {{"friction": vc.Friction(0.3), "tangential": pull}}
+    if "{kind}" == "rolled":
+        material, load = vc.Material(spring, poisson_ratio=0.5), vc.step(0.08)
+        path = vc.Travel([0.5, 2.0], x=[0, 2e-5], creepage=0.01)
+        grip = {{"friction": vc.Friction(0.3), "motion": path}}
     grid = vc.Grid((cells, cells), (2e-3, 2e-3))
     return Problem(vc.Sphere(0.01), material, load, grid, times, **grip)
 
 def march(cells):
     given = problem(cells)
     what = given.indenter, given.material, given.load, given.grid, given.times
-    for _ in vc.march(*what, friction=given.friction, tangential=given.tangential):
+    along = {{"friction": given.friction, "tangential": given.tangential, "motion": given.motion}}
+    for _ in vc.march(*what, **along):
         pass
 
 march(64)
@@ -91,6 +96,7 @@ measured = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measure
         ("pulled", 1024, None),
         ("pulled aside", 1024, None),
         ("pulled, coupled", 768, None),
+        ("rolled", 768, None),
     ],
 )
 def test_announced_memory_is_what_a_run_takes(kind: str, cells: int, most: int | None) -> None:

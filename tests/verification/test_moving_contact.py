@@ -188,10 +188,12 @@ def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.slow
-def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
+@pytest.mark.parametrize("creepage", [None, 0.02])
+def test_recorded_run_continues_to_the_same_bits(tmp_path: Path, creepage: float | None) -> None:
     grid = vc.Grid((20, 28), (3.2, 4.48), centre=(0.0, 0.64))
-    path = vc.Travel([0.0, 6.4, 12.8], y=[0.0, 0.64, 1.28])
-    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, kept=NO_FIELDS, motion=path))
+    path = vc.Travel([0.0, 6.4, 12.8], y=[0.0, 0.64, 1.28], creepage=creepage)
+    grips = {} if creepage is None else {"friction": vc.Friction(0.3, coupling=False)}
+    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, kept=NO_FIELDS, motion=path, **grips))
     for name, stops in (("whole", ()), ("stopped", (1, 5))):
         recorded = Recorded(tmp_path / name, OverTime(run))
         for stop in stops:

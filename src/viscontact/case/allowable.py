@@ -30,6 +30,7 @@ GRIPPING = (
     *("tangential_force_x", "tangential_force_y", "torque", "rotation", "stick_area"),
     *("tangential_displacement_x", "tangential_displacement_y", "slip_fraction"),
     *("friction_heat", "friction_power", "tangential_stiffness_x", "tangential_stiffness_y"),
+    *("creepage", "drive_torque"),
 )
 ADHERING = ("least_pressure", "tensile_area", "adhesion_energy")
 NOT_STEADY = ("work", "loss_per_cycle", "motion_work", "heat")
@@ -100,6 +101,10 @@ class Allowable(Section):
     friction_power: _Power | None = Field(default=None, description="heat of friction over time")
     tangential_stiffness_x: _Stiffness | None = Field(default=None, description="along x")
     tangential_stiffness_y: _Stiffness | None = Field(default=None, description="along y")
+    creepage: _Ratio | None = Field(
+        default=None, description="surface speed of the body over its travel, less 1"
+    )
+    drive_torque: _Torque | None = Field(default=None, description="of the drive of a roller")
     least_pressure: _Stress | None = Field(default=None, description="largest tension")
     tensile_area: _Area | None = Field(
         default=None, description="area outside the contact that pulls"

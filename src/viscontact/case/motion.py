@@ -15,6 +15,7 @@ from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case.data_file import DataFile
 from viscontact.case.quantities import (
+    Creepage,
     CycleCount,
     Duration,
     Instant,
@@ -67,7 +68,18 @@ class MotionSection(Section):
         return self
 
 
-class Travel(MotionSection):
+class MotionOverTime(MotionSection):
+    """A motion whose positions over time are given."""
+
+    creepage: Creepage | None = Field(
+        default=None,
+        description="under friction: surface speed of the body that rolls over its travel, less 1; "
+        "positive if it drives",
+        examples=["0.3 %"],
+    )
+
+
+class Travel(MotionOverTime):
     """A path of the body through points at given times; at rest before and after."""
 
     kind: Literal["travel"]
@@ -97,7 +109,7 @@ class Travel(MotionSection):
         if not self.points:
             raise ValueError("points is empty; write e.g. '[[0 s, 0 mm], [2 s, 40 mm]]'")
         times, positions = zip(*self.points, strict=True)
-        return loads.Travel(times, **{self.along: positions}, rolling=self.rolling)
+        return self._through(times, {self.along: positions})
 
     @property
     def files(self) -> dict[tuple[str, ...], Path]:
@@ -119,10 +131,13 @@ class Travel(MotionSection):
         if "time" not in table or not ("x" in table or "y" in table):
             raise ValueError(f"file: {path.name}: needs the column time, and x or y or both")
         places: dict[str, Any] = {name: table[name] for name in _AXES if name in table}
-        return loads.Travel(table["time"], **places, rolling=self.rolling)
+        return self._through(table["time"], places)
+
+    def _through(self, times: Any, places: dict[str, Any]) -> Motion:
+        return loads.Travel(times, **places, rolling=self.rolling, creepage=self.creepage)
 
 
-class Reciprocating(MotionSection):
+class Reciprocating(MotionOverTime):
     """A motion back and forth, amplitude sin(2 pi t/period), from time 0."""
 
     kind: Literal["reciprocating"]
@@ -134,7 +149,9 @@ class Reciprocating(MotionSection):
     def build(self) -> Motion:
         """Return the motion."""
         return loads.reciprocating(
-            self.amplitude, self.period, self.cycles, self.along, rolling=self.rolling
+            *(self.amplitude, self.period, self.cycles, self.along),
+            rolling=self.rolling,
+            creepage=self.creepage,
         )
 
 

@@ -19,6 +19,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies.grid import COARSEST, FINEST
 from viscontact.bodies.loads.harmonic_history import MOST_CYCLES
+from viscontact.bodies.loads.motion import LARGEST_CREEPAGE
 from viscontact.mechanics.time_integration.requested_times import (
     COARSEST_TIME_ERROR,
     FINEST_TIME_ERROR,
@@ -158,6 +159,11 @@ Strain = Annotated[
     float,
     BeforeValidator(_fraction, json_schema_input_type=float | str),
     Field(gt=0, examples=["0.5 %", 0.005]),
+]
+Creepage = Annotated[
+    float,
+    BeforeValidator(_fraction, json_schema_input_type=float | str),
+    Field(gt=-LARGEST_CREEPAGE, lt=LARGEST_CREEPAGE, examples=["0.3 %", 0.003]),
 ]
 GridTolerance = Annotated[
     float,

@@ -40,6 +40,9 @@ OF_CLOCKS = ("temperature", "reduced_time", "reduced_time_indenter", "thickening
 #: Part of a state that only contacts under friction have.
 FRICTION = "friction"
 
+#: Part of a state that only bodies have that roll with traction.
+ROLLING = "rolling"
+
 #: Part of a state of a run whose case names a fluid that leaks.
 LEAKAGE = "leakage"
 
@@ -193,6 +196,13 @@ class ContactState:
     duality_gap : float or None
         Bound of the energy of the error of the tractions, over the work of all friction on the
         largest displacement [-].
+    creepage : float or None
+        Way of the body's surface against the half-space in the step, over the travel: surface speed
+        over travel, less 1; NaN at rest [-]. This and the next one are None but of a body that
+        rolls under friction.
+    drive_torque : float or None
+        Torque of a drive that the tractions balance: their force against the motion times the
+        radius of the body, positive where it drives; NaN at rest, and without a radius [N m].
     transmissivity, leak_rate, critical_gap : float or None
         Of a fluid through the gap, as of `leakage`: h³/12 between parallel plates [m³], volume over
         time [m³/s], and gap at the narrowest place of the widest channel [m]; NaN at instants
@@ -287,6 +297,8 @@ class ContactState:
     tangential_stiffness_x: float | None = None
     tangential_stiffness_y: float | None = None
     duality_gap: float | None = None
+    creepage: float | None = None
+    drive_torque: float | None = None
     transmissivity: float | None = None
     transmissivity_error: float | None = None
     leak_rate: float | None = None
@@ -320,12 +332,15 @@ class ContactState:
         """Parts of its scalars that only some states have."""
         moving = {MOTION} if self.moving or self.speed is not None else set()
         gripping = set() if self.traction_x is None else {FRICTION}
+        rolling = set() if self.creepage is None else {ROLLING}
         leaking = set() if self.leak_rate is None else {LEAKAGE}
         across = set() if self.leak_rate_y is None else {LEAKAGE_Y}
         adhering = set() if self.least_pressure is None else {ADHESION}
         staged = set() if self.stage_position is None else {STAGE}
         clocked = {name for name in OF_CLOCKS if getattr(self, name) is not None}
-        return frozenset(moving | gripping | leaking | across | adhering | staged | clocked)
+        return frozenset(
+            moving | gripping | rolling | leaking | across | adhering | staged | clocked
+        )
 
     @property
     def field_names(self) -> tuple[str, ...]:

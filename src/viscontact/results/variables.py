@@ -21,6 +21,7 @@ from viscontact.mechanics.state import (
     LEAKAGE,
     LEAKAGE_Y,
     MOTION,
+    ROLLING,
     STAGE,
     Outcome,
 )
@@ -167,19 +168,19 @@ def _leaks_along_y() -> dict[str, Variable]:
     shown = Place.KEY | Place.CARD | Place.FACTS
     found = {
         "transmissivity_y": Variable(
-            "m3", "transmissivity along y", label="Transmissivity along y", rank=43
+            "m3", "transmissivity along y", label="Transmissivity along y", rank=44
         ),
         "leak_rate_y": Variable(
             *("m3 s-1", "volume of fluid that leaks along y in a unit of time"),
             label="Leak rate along y",
             places=shown,
-            rank=44,
+            rank=45,
         ),
         "critical_gap_y": Variable(
             *("m", "gap at the narrowest place of the widest channel along y"),
             label="Critical gap along y",
             places=shown,
-            rank=45,
+            rank=46,
         ),
     }
     errors = {
@@ -311,17 +312,27 @@ SCALARS = {
         *("1", "bound of the energy of the error of the tractions"),
         of=FRICTION,
     ),
+    "creepage": _scalar(
+        *("1", "surface speed of the body over its travel, less 1", "Creepage", 39),
+        *(Place.CARD | Place.RESPONSE | Place.FIGURE,),
+        of=ROLLING,
+    ),
+    "drive_torque": _scalar(
+        *("N m", "torque of the drive that the tractions balance", "Drive torque", 40),
+        *(Place.KEY | Place.CARD | Place.RESPONSE | Place.FIGURE,),
+        of=ROLLING,
+    ),
     "transmissivity": _leak(
-        "m3", "transmissivity of the gap: h³/12 between parallel plates", 40, "Transmissivity"
+        "m3", "transmissivity of the gap: h³/12 between parallel plates", 41, "Transmissivity"
     ),
     "transmissivity_error": _leak("m3", "error of the transmissivity, by two discretisations"),
     "leak_rate": _leak(
-        *("m3 s-1", "volume of fluid that leaks in a unit of time", 41, "Leak rate"),
+        *("m3 s-1", "volume of fluid that leaks in a unit of time", 42, "Leak rate"),
         Place.KEY | Place.CARD | Place.FACTS,
     ),
     "leak_rate_error": _leak("m3 s-1", "error of the leak rate"),
     "critical_gap": _leak(
-        *("m", "gap at the narrowest place of the widest channel", 42, "Critical gap"),
+        *("m", "gap at the narrowest place of the widest channel", 43, "Critical gap"),
         Place.KEY | Place.CARD | Place.FACTS,
     ),
     "critical_gap_error": _leak("m", "error of the critical gap"),
@@ -444,7 +455,7 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
 
 
 #: Parts of all results whose scalars have errors.
-ALL_PARTS = (MOTION, FRICTION, ADHESION)
+ALL_PARTS = (MOTION, FRICTION, ROLLING, ADHESION)
 
 
 def scalars_with_error(parts: Container[str] = ALL_PARTS, over: str = "time") -> list[str]:

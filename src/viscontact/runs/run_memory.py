@@ -41,6 +41,9 @@ ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.5, 2.0
 #: half of the grid; of less of it with symmetries.
 ARRAYS_OF_SLIP_SEARCH = 31.0
 
+#: Arrays of the operators on the track of a creeping body that rolls.
+ARRAYS_OF_TRACK = 31.0
+
 #: Further arrays where pressure and tractions are coupled, of the whole grid and of the cells
 #: computed, measured: fields of the alternation, and spectra of the kernels and of three fields on
 #: four times the cells. Each term of the law adds one of the pressure.
@@ -78,6 +81,8 @@ def run_memory(run: RunSetup) -> float:
         symmetry = symmetry_of(run)
         share = 1.0 if symmetry is None else 0.5 ** sum(symmetry.mirrored)
         whole += share * ARRAYS_OF_SLIP_SEARCH
+        if not (run.problem.motion.stands or run.problem.surface.creep.is_elastic):
+            whole += share * ARRAYS_OF_TRACK
         if run.problem.is_coupled:
             whole += ARRAYS_OF_COUPLING + share * COMPUTED_ARRAYS_OF_COUPLING + kept_there
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept

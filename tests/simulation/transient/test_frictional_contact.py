@@ -26,6 +26,13 @@ SHAKEN = {
 }
 
 
+PATH = vc.Travel([0, 1], y=[0, 1e-3])
+ROLLED = vc.Travel([0, 1], y=[0, 1e-3], rolling=True)
+PRESSED = {"indenter": BALL, "material": RUBBER, "load": vc.step(0.1), "grid": GRID}
+PRESSED["times"] = [0.0, 1.0]
+DRIVEN = vc.Travel([0, 1], y=[0, 1e-3], creepage=0.003)
+
+
 def march(load, tangential, times, material=RUBBER, grid=GRID, **given):
     return list(
         vc.march(BALL, material, load, grid, times, friction=0.3, tangential=tangential, **given)
@@ -98,9 +105,20 @@ def test_coupling_is_chosen_by_itself_where_it_cancels():
     [
         ({"friction": 0.3}, "friction needs a tangential load"),
         ({"tangential": SHAKEN["x"]}, "a tangential load needs friction"),
+        ({"friction": 0.3, "motion": PATH}, "under friction a body that moves needs a creepage"),
+        ({"motion": DRIVEN}, "a creepage needs friction"),
+        ({"friction": 0.3, "tangential": SHAKEN["x"], "motion": PATH}, "motion.rolling: a body"),
         (
-            {"friction": 0.3, "tangential": SHAKEN["x"], "motion": vc.Travel([0, 1], y=[0, 1e-3])},
-            "moves over the surface",
+            {"friction": 0.3, "tangential": SHAKEN["x"], "motion": DRIVEN},
+            "the creepage of the motion prescribes the shift",
+        ),
+        (
+            {"friction": 0.3, "tangential": SHAKEN["torque"], "motion": ROLLED},
+            "torque and rotation of a body that moves",
+        ),
+        (
+            {"friction": 0.3, "material": vc.Material(vc.Elastic(1e6), 0.3), "motion": DRIVEN},
+            "friction.coupling: pressure and tractions of these bodies are coupled",
         ),
         (
             {"friction": 0.3, "tangential": vc.tangential_ramp(force_x=0.06, duration=1.0)},
@@ -110,7 +128,7 @@ def test_coupling_is_chosen_by_itself_where_it_cancels():
 )
 def test_what_cannot_be_computed_is_refused_before_the_first_step(given, said):
     with pytest.raises(ValueError, match=said):
-        vc.march(BALL, RUBBER, vc.step(0.1), GRID, [0.0, 1.0], **given)
+        vc.march(**{**PRESSED, **given})
 
 
 def test_layers_are_refused():

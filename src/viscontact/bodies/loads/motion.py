@@ -12,10 +12,13 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Control, Cycle, LoadHistory
-from viscontact.units.numbers import real_array, store
+from viscontact.units.numbers import finite, real_array, store
 
 #: Relative difference below which a kink of the path is taken at a kink of the load.
 SAME_TIME = 1e-9
+
+#: Creepage at which a body that brakes does not turn any more.
+LARGEST_CREEPAGE = 1.0
 
 #: Upper limit on the cells that the body passes.
 MOST_CELLS = 1_000_000
@@ -32,6 +35,9 @@ class Motion(ABC):
 
     #: True if the material of both bodies flows through the contact, False if the body slides.
     rolling: bool | None = None
+
+    #: Surface speed of a body that rolls over its travel, less 1; None if it is not given [-].
+    creepage: float | None = None
 
     @abstractmethod
     def position_at(self, times: ArrayLike) -> Floats:
@@ -195,6 +201,24 @@ def checked_rolling(rolling: bool | None) -> bool | None:
     if rolling is None or isinstance(rolling, bool | np.bool_):
         return None if rolling is None else bool(rolling)
     raise ValueError(f"rolling must be true or false, got {rolling!r}")
+
+
+def checked_creepage(creepage: float | None, *, rolling: bool | None) -> float | None:
+    """Return a creepage between -1 and 1 of a body that rolls, or None; else raise ValueError."""
+    if creepage is None:
+        return None
+    number = finite("creepage", creepage, "1")
+    if not -LARGEST_CREEPAGE < number < LARGEST_CREEPAGE:
+        raise ValueError(
+            f"creepage must lie between -1 and 1, got {creepage!r}: it is the surface speed of the "
+            "body over its travel, less 1; write 0.003 for 0.3 %"
+        )
+    if rolling is False:
+        raise ValueError(
+            f"creepage goes with a body that rolls, got creepage={creepage!r} and rolling=False; "
+            "leave one of them out"
+        )
+    return number
 
 
 def refuse_long_path(cells: float) -> None:

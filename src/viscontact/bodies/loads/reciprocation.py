@@ -12,7 +12,12 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import Cycle
-from viscontact.bodies.loads.motion import Motion, checked_rolling, refuse_long_path
+from viscontact.bodies.loads.motion import (
+    Motion,
+    checked_creepage,
+    checked_rolling,
+    refuse_long_path,
+)
 from viscontact.units.numbers import finite, positive, real_array, whole
 
 #: Steps of a cycle; the work of a cycle then has an error of about 6e-4.
@@ -40,6 +45,8 @@ class Reciprocation(Motion):
         Axis of the motion.
     rolling : bool or None
         As in `Travel`.
+    creepage : float or None
+        As in `Travel` [-].
     """
 
     amplitude: float = field(metadata={"unit": "m"})
@@ -47,6 +54,7 @@ class Reciprocation(Motion):
     count: int = field(metadata={"unit": "1", "name": "cycles"})
     along: Literal["x", "y"] = "y"
     rolling: bool | None = None
+    creepage: float | None = field(default=None, metadata={"unit": "1"})
 
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
@@ -109,6 +117,7 @@ def reciprocating(
     along: Literal["x", "y"] = "y",
     *,
     rolling: bool | None = None,
+    creepage: float | None = None,
 ) -> Reciprocation:
     """Return a motion back and forth, amplitude sin(2 π t/period), from time 0.
 
@@ -125,6 +134,8 @@ def reciprocating(
     rolling : bool, optional
         True if the material of both bodies flows through the contact, False if the body slides.
         Required where the indenter's material is not elastic.
+    creepage : float, optional
+        Surface speed of a body that rolls over its travel, less 1, forth and back [-].
 
     Returns
     -------
@@ -135,7 +146,8 @@ def reciprocating(
     ------
     ValueError
         If amplitude or period is not positive and finite, cycles is not a whole number of at
-        least 1, or along is neither "x" nor "y".
+        least 1, along is neither "x" nor "y", or a creepage is out of range or given of a body
+        that slides.
 
     Examples
     --------
@@ -144,12 +156,15 @@ def reciprocating(
     """
     if along not in ("x", "y"):
         raise ValueError(f"reciprocating: along must be 'x' or 'y', got {along!r}")
+    rolls = checked_rolling(rolling)
+    share = checked_creepage(creepage, rolling=rolls)
     return Reciprocation(
         amplitude=positive("reciprocating: amplitude", amplitude, "m"),
         period=positive("reciprocating: period", period, "s"),
         count=whole("reciprocating: cycles", cycles, 1, MOST_CYCLES),
         along=along,
-        rolling=checked_rolling(rolling),
+        rolling=rolls if share is None else True,
+        creepage=share,
     )
 
 

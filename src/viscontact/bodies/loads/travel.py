@@ -12,7 +12,12 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import history_points
-from viscontact.bodies.loads.motion import Motion, checked_rolling, refuse_long_path
+from viscontact.bodies.loads.motion import (
+    Motion,
+    checked_creepage,
+    checked_rolling,
+    refuse_long_path,
+)
 from viscontact.units.numbers import finite, real_array, store
 
 #: Part of a cell that is rounding.
@@ -34,18 +39,23 @@ class Travel(Motion):
     rolling : bool, optional
         True if the material of both bodies flows through the contact, False if the body slides
         and its own material moves with it. Required where the indenter's material is not elastic.
+    creepage : float, optional
+        Surface speed of a body that rolls over its travel, less 1, for rolling with traction under
+        friction: positive where the body drives. Towards +y it then pushes the half-space to -y.
+        Between -1 and 1; the body then rolls [-].
 
     Raises
     ------
     ValueError
         If the arrays do not fit together, a value is not finite, the times do not increase (a
-        repeated time would be a jump of the position), or the body does not move.
+        repeated time would be a jump of the position), the body does not move, or a creepage is
+        out of range or given of a body that slides.
 
     Notes
     -----
     gap = h(x - X, y - Y) + displacement - approach - tilt_x (x - X) - tilt_y (y - Y), with the
-    position (X, Y) of the body's axis. There is no friction. Eccentricities are measured from the
-    axis.
+    position (X, Y) of the body's axis. Eccentricities are measured from the axis. With a creepage
+    the surface of the body moves by -creepage times the way against the half-space.
 
     Examples
     --------
@@ -60,6 +70,7 @@ class Travel(Motion):
     x: float | Floats = field(metadata={"unit": "m"})
     y: float | Floats = field(metadata={"unit": "m"})
     rolling: bool | None
+    creepage: float | None = field(metadata={"unit": "1"})
 
     def __init__(
         self,
@@ -68,6 +79,7 @@ class Travel(Motion):
         y: ArrayLike = 0.0,
         *,
         rolling: bool | None = None,
+        creepage: float | None = None,
     ) -> None:
         instants = history_points.instants(times)
         for i in np.flatnonzero(np.diff(instants) == 0)[:1]:
@@ -79,7 +91,10 @@ class Travel(Motion):
             history_points.values(Travel, name, given, instants.size)
             for name, given in (("x", x), ("y", y))
         )
-        store(self, times=instants, x=along_x, y=along_y, rolling=checked_rolling(rolling))
+        rolls = checked_rolling(rolling)
+        share = checked_creepage(creepage, rolling=rolls)
+        rolls = rolls if share is None else True
+        store(self, times=instants, x=along_x, y=along_y, rolling=rolls, creepage=share)
         if not any(self.moves):
             raise ValueError(
                 "x and y: the body does not move; give two different positions, or leave out the "

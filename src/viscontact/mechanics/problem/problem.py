@@ -21,6 +21,7 @@ from viscontact.bodies.loads.joint import JointLoad
 from viscontact.bodies.loads.largest_load import largest_load
 from viscontact.bodies.loads.mixed import as_history
 from viscontact.bodies.loads.motion import STANDING, Motion
+from viscontact.bodies.loads.rolling_shift import RollingShift
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.body import Body
@@ -47,7 +48,7 @@ from viscontact.mechanics.problem.surface import (
     surface_of,
     together,
 )
-from viscontact.mechanics.state import ADHESION, FRICTION, MOTION, OF_CLOCKS, STAGE
+from viscontact.mechanics.state import ADHESION, FRICTION, MOTION, OF_CLOCKS, ROLLING, STAGE
 from viscontact.mechanics.time_integration.adaptive_steps import (
     MIN_STEP_FRACTION,
     AdaptiveSteps,
@@ -246,9 +247,19 @@ class Problem:
         """Parts of the scalars of its states that only some problems have."""
         moving = () if self.motion.stands else (MOTION,)
         gripping = () if self.friction is None else (FRICTION,)
+        rolling = () if self.friction is None or self.motion.stands else (ROLLING,)
         adhering = () if self.adhesion is None else (ADHESION,)
         staged = () if self.load.stage_stiffness is None else (STAGE,)
-        return frozenset([*moving, *gripping, *adhering, *staged, *self.clock_scalars(0.0)])
+        return frozenset(
+            [*moving, *gripping, *rolling, *adhering, *staged, *self.clock_scalars(0.0)]
+        )
+
+    @cached_property
+    def shear_load(self) -> TangentialLoad | None:
+        """The tangential load: that given, or the shift of a body that rolls with a creepage."""
+        if self.tangential is None and self.motion.creepage is not None:
+            return RollingShift(self.motion)
+        return self.tangential
 
     def clock_scalars(self, time: float) -> dict[str, float]:
         """Temperature [K], reduced times [s] and thickening [m], by their names in the result."""

@@ -102,22 +102,27 @@ class InternalVariables(HereditaryIntegral):
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
-    def loss(self, value: Floats) -> tuple[float, float]:
+    def loss(self, value: Floats, paired: FieldMap | None = None) -> tuple[float, float]:
         """Heat of the step to a new value, and power lost at its end, per area [J/m², W/m²].
 
-        The power is that per reduced time.
+        The power is that per reduced time. A field that is no pair of pressure and unit
+        displacement is made one by a linear map.
         """
-        # The field is a pair of pressure and unit displacement. To be called before `accept`.
+        # To be called before `accept`.
         shape, turned = self._shape, value
         if self._trend is not None and not shape.is_level:
             turned = shape.turn_weight * value + (1 - shape.turn_weight) * self._trend.mean
-        parts = [(shape.rise, self._value, turned), (shape.slow, turned, value)]
-        heat = heat_of_step(self._compliance, self._fields, parts) if shape.duration > 0 else 0.0
-        compliance = self._compliance
-        variables = self._next.decay[:, None, None, None] * self._fields
-        for weights, each in self._weighted_values(value):
+        weighted, fields, before = self._weighted_values(value), self._fields, self._value
+        if paired is not None:
+            fields = np.stack([paired(each) for each in fields])
+            weighted = [(weights, paired(each)) for weights, each in weighted]
+            before, value, turned = paired(before), paired(value), paired(turned)
+        parts = [(shape.rise, before, turned), (shape.slow, turned, value)]
+        heat = heat_of_step(self._compliance, fields, parts) if shape.duration > 0 else 0.0
+        variables = self._next.decay[:, None, None, None] * fields
+        for weights, each in weighted:
             variables += weights[:, None, None, None] * each
-        return heat, power_lost(compliance, variables, value)
+        return heat, power_lost(self._compliance, variables, value)
 
     def restart_data(self) -> RestartData:
         """Restart data: internal variables, last value and trend."""

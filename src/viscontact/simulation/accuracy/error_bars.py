@@ -176,6 +176,8 @@ def _zero_without_contact(
         zero += [(ZERO_WITHOUT_MOVING_CONTACT, apart), (ZERO_BEFORE_CONTACT, before)]
     if run.problem.friction is not None:
         zero.append((ZERO_WITHOUT_GRIP, apart))
+        if not run.problem.motion.stands:
+            zero.append((("drive_torque",), apart))
     for names, where in zero:
         for name in names:
             values[name][where] = 0.0

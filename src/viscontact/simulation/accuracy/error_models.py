@@ -147,6 +147,8 @@ ERROR_MODELS = {
     "friction_power": _FRICTION_HEAT,
     "tangential_stiffness_x": _SHIFT,
     "tangential_stiffness_y": _SHIFT,
+    "creepage": _SHIFT,
+    "drive_torque": _SHIFT,
     "least_pressure": _PULL,
     "tensile_area": ErrorModel(1.0, 1.5),
     "adhesion_energy": _BULK,

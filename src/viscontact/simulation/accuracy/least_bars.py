@@ -27,11 +27,12 @@ from viscontact.simulation.transient.setup import RunSetup
 #: Scalars that vanish for an elastic body.
 RESISTANCES = ("resistance_x", "resistance_y", "friction_coefficient", "motion_work")
 
-#: Scalars of a contact under friction that are not given.
+#: Motions of a contact under friction, and scalars that are not given.
+SHIFTS = ("tangential_displacement_x", "tangential_displacement_y", "rotation")
 GRIPPING = (
-    *("tangential_displacement_x", "tangential_displacement_y", "rotation"),
+    *SHIFTS,
     *("stick_area", "slip_fraction", "friction_heat", "friction_power"),
-    *("tangential_stiffness_x", "tangential_stiffness_y"),
+    *("tangential_stiffness_x", "tangential_stiffness_y", "creepage", "drive_torque"),
 )
 
 TINY = float(np.finfo(np.float64).tiny)
@@ -205,7 +206,9 @@ def _least_grip_bar(run: RunSetup, name: str, history: History) -> Floats:
     """Usual errors of a contact under friction on the cells across it."""
     across = np.maximum(cells_of_breadth(run, history), 1.0)
     given = name.removeprefix("tangential_")
-    if getattr(run.problem.tangential, given, None) is not None:  # a prescribed motion
+    problem = run.problem
+    rolls = problem.motion.creepage is not None and name in ("creepage", *SHIFTS)
+    if rolls or getattr(problem.tangential, given, None) is not None:  # a prescribed motion
         return np.zeros(across.size)
     if name in ("stick_area", "slip_fraction"):
         whole = history["contact_area"] if name == "stick_area" else np.ones(across.size)

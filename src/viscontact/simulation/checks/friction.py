@@ -31,26 +31,62 @@ SAMPLES, HALVINGS = 16, 60
 
 def check_friction(problem: Problem) -> None:
     """Refuse friction that cannot be computed, before the times of the run are needed."""
-    if problem.friction is None and problem.tangential is None:
+    if problem.friction is None and problem.shear_load is None:
         return
+    if problem.friction is None and problem.tangential is None:
+        raise ValueError(
+            "friction: a creepage needs friction, got none; give a coefficient, as in friction=0.3 "
+            "or, in a case, 'friction: {coefficient: 0.3}', or leave the creepage out"
+        )
     if problem.friction is None:
         raise ValueError(
             "friction: a tangential load needs friction, got none; give a coefficient, as in "
             "friction=0.3 or, in a case, 'friction: {coefficient: 0.3}'"
         )
-    if problem.tangential is None:
+    if not problem.motion.stands:
+        _check_rolling(problem)
+    if problem.shear_load is None:
         raise ValueError(
             "tangential: friction needs a tangential load, got none; give one, as in "
             "tangential=vc.tangential_step(force_x=1.0) or, in a case, 'tangential: {kind: step, "
             "force_x: 1 N}'"
         )
-    if not problem.motion.stands:
-        raise ValueError(
-            "friction: a body that moves over the surface is not supported under friction; leave "
-            "the motion or friction out"
-        )
     shear_terms(problem.bodies, problem.clocks)
-    check_grip(problem)
+    if problem.tangential is not None:
+        check_grip(problem)
+
+
+def _check_rolling(problem: Problem) -> None:
+    """Refuse a moving body whose tractions cannot be computed."""
+    motion, load = problem.motion, problem.tangential
+    if load is None and motion.creepage is None:
+        raise ValueError(
+            "motion.creepage: under friction a body that moves needs a creepage, its surface speed "
+            "over its travel, less 1, got none; give one, as in creepage=0.003 or, in a case, "
+            "'creepage: 0.3 %', give rolling=True and a tangential force, or leave friction out"
+        )
+    if load is not None and motion.creepage is not None:
+        raise ValueError(
+            "tangential: the creepage of the motion prescribes the shift of the body, so that "
+            "there is no other tangential load; leave one of them out"
+        )
+    if load is not None and not motion.rolling:
+        raise ValueError(
+            "motion.rolling: a body that slides under friction slips in all of its contact, with "
+            "tractions of friction times the pressure, and no tangential load is left to choose; "
+            "give rolling=True if it rolls, or leave friction out"
+        )
+    if load is not None and load.acts[2]:
+        raise ValueError(
+            "tangential.torque: torque and rotation of a body that moves are not supported; leave "
+            "them out"
+        )
+    if problem.is_coupled:
+        raise ValueError(
+            "friction.coupling: pressure and tractions of these bodies are coupled, which is not "
+            "supported in motion; give coupling=False, which neglects it, or bodies for which it "
+            "cancels: two of the same material, or of Poisson's ratio 1/2"
+        )
 
 
 def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
@@ -84,6 +120,19 @@ def coupling_warnings(problem: Problem) -> dict[str, str]:
     return {
         "coupling": "pressure moves the surfaces along themselves, as Poisson's ratio is below "
         "0.5, and this is neglected (coupling=False); tractions and shifts err by some percent"
+    }
+
+
+def rise_warnings(problem: Problem, grid: Grid) -> dict[str, str]:
+    """Warn of a line contact under a creepage, whose traction rises by the size of the grid."""
+    if problem.motion.creepage is None or grid.has_datum:
+        return {}
+    return {
+        "rise": (
+            "motion.creepage: a line contact has no point at rest that shifts count from, so that "
+            "the way on which its traction rises from rest depends on the size of the grid; the "
+            "steady traction, after some contact widths, does not"
+        )
     }
 
 

@@ -60,14 +60,19 @@ def _way(motion: Motion) -> float:
     return math.hypot(along_x, along_y)
 
 
-def _circumference(problem: Problem, motion: Motion) -> float:
-    """Circumference of the indenter in the plane of its motion; inf without curvature [m]."""
+def rolling_radius(problem: Problem, motion: Motion) -> float:
+    """Radius of the indenter in the plane of its motion; inf without curvature [m]."""
     ways = [high - low for low, high in motion.reach]
     curvature = sum(
         curved * (way / _way(motion)) ** 2
         for curved, way in zip(problem.indenter.curvatures, ways, strict=True)
     )
-    return 2 * math.pi / curvature if curvature > 0 else math.inf
+    return 1 / curvature if curvature > 0 else math.inf
+
+
+def _circumference(problem: Problem, motion: Motion) -> float:
+    """Circumference of the indenter in the plane of its motion; inf without curvature [m]."""
+    return 2 * math.pi * rolling_radius(problem, motion)
 
 
 def turn_warnings(problem: Problem) -> dict[str, str]:

@@ -278,7 +278,7 @@ def _rescaled(
 def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
     """Friction of a run; without it nothing is carried along the surface."""
     problem = run.problem
-    if problem.friction is None or problem.tangential is None:
+    if problem.friction is None or problem.shear_load is None:
         return Frictionless()
     kind = CoupledContact if problem.is_coupled else FrictionalContact
-    return kind(run, problem.friction, problem.tangential)
+    return kind(run, problem.friction, problem.shear_load)

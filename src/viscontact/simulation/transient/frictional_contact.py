@@ -7,8 +7,9 @@ tractions (`shear_history`). A contact without friction is `Frictionless`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,12 @@ from viscontact.simulation.transient.coupling_history import CouplingStep
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearHistory, ShearStep
-from viscontact.simulation.transient.slip_results import grip_of, slip_fields, slip_scalars
+from viscontact.simulation.transient.slip_results import (
+    grip_of,
+    rolling_scalars,
+    slip_fields,
+    slip_scalars,
+)
 from viscontact.simulation.transient.slip_state import SlipState, StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import (
     SlipGuess,
@@ -53,6 +59,8 @@ class SlipTrial:
     after: SlipState | None = None
     duration: float = 0.0  # [s]
     coupling: CouplingStep | None = None
+    #: Energy lost in the bodies under the tractions since the start [J], and its rate [W].
+    loss: tuple[float, float] = (0.0, 0.0)
 
     @property
     def warnings(self) -> dict[str, str]:
@@ -123,6 +131,8 @@ class FrictionalContact(Uncoupled):
         self._state = SlipState.at_first(run.open_gap)
         #: Change of the traction [Pa] in the last step, and its duration [s].
         self._trend = np.zeros(self._state.traction.shape), 0.0
+        self._time = 0.0  # at the end of the last step [s]
+        self._lost = 0.0  # in the bodies under the tractions [J]
         self._widest = 0.0  # ring that has slipped, in cells
 
     @property
@@ -135,6 +145,7 @@ class FrictionalContact(Uncoupled):
     ) -> SlipTrial:
         """Solve the tractions at the end of a step, after that of the last one accepted."""
         before, grid, contact = self._state, self._run.grid, solution.contact
+        self._domain.move_axis(self._run.position_at(step.time))
         region = self._region_of(contact)
         known = self._known(step, contact, region, self._history.respond(step))
         if contact.in_contact.any():
@@ -144,7 +155,9 @@ class FrictionalContact(Uncoupled):
                 if joint is None
                 else joint.slip
             )
-            after = before.after(contact, found, self._coefficient, grid.cell_area)
+            after = before.after(
+                *(contact, found, self._coefficient, grid.cell_area), moves=self._moves
+            )
         else:
             refuse_force_apart(known)
             found = StepSlip.apart(grid.shape, known.constraints)
@@ -153,11 +166,26 @@ class FrictionalContact(Uncoupled):
             lifted = solution.gap.min() - self._run.open_gap.min()
             after = before.apart(solution.gap - lifted, found)
         scalars = slip_scalars(grid, step.duration, before, after, found)
+        if self._moves:
+            scalars |= rolling_scalars(self._run, (self._time, step.time), before, after)
         return SlipTrial(
             scalars | slip_fields(after, found),
             grip_of(grid, known, after, scalars["slip_fraction"]),
             *(known.response, after, step.duration),
+            loss=self._loss(region, step, after.traction),
         )
+
+    def _loss(self, region: Region, step: TimeStep, traction: Floats) -> tuple[float, float]:
+        """Energy lost since the start under tractions [J], and power at the end of a step [W]."""
+        run = self._run
+        # A body that stands has no such result, and an elastic one loses nothing.
+        if not self._moves or run.problem.surface.creep.is_elastic:
+            return 0.0, 0.0
+        if not run.problem.has_datum(run.grid):
+            return math.nan, math.nan
+        track = self._domain.along(region, run.problem.motion.moves)
+        heat, power = self._history.loss(traction, self._domain, track, step.time)
+        return self._lost + heat, power
 
     def accept(self, trial: SlipTrial) -> None:
         """Close a step with its tractions."""
@@ -166,11 +194,27 @@ class FrictionalContact(Uncoupled):
         assert trial.grip is not None
         self._history.accept(trial.response, trial.after.traction)
         self._trend = trial.after.traction - self._state.traction, trial.duration
+        self._time, self._lost = trial.grip.time, trial.loss[0]
         self._state, self._widest = trial.after, max(self._widest, trial.grip.ring)
 
     def _region_of(self, contact: NormalContact) -> Region:
         """Region of cells that carry tractions, or have carried some."""
+        if self._moves and contact.in_contact.any():  # its track is another region
+            return self._domain.region_of(self._state.contact.in_contact | contact.in_contact)
         return self._domain.region_of(self._state.touched | contact.in_contact)
+
+    def _past(self, region: Region, response: ShearStep) -> Floats:
+        """Displacement of a region in a step by earlier tractions [m]."""
+        problem = self._run.problem
+        if not self._moves or problem.surface.creep.is_elastic:
+            return response.past(self._domain, region)
+        # A body that creeps remembers the tractions all along the path.
+        track = self._domain.along(region, problem.motion.moves)
+        return response.past(self._domain, track)[:, *region.within(track)]
+
+    @property
+    def _moves(self) -> bool:
+        return not self._run.problem.motion.stands
 
     def _known(
         self, step: TimeStep, contact: NormalContact, region: Region, response: ShearStep
@@ -182,7 +226,7 @@ class FrictionalContact(Uncoupled):
             self._state,
             contact,
             response,
-            response.past(self._domain, region),
+            self._past(region, response),
             shift_constraints(self._run, point, self._state.motion),
             self._coefficient,
         )
@@ -192,14 +236,18 @@ class FrictionalContact(Uncoupled):
     ) -> StepSlip:
         """Tractions of a step in contact."""
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
-        return step_slip(found, known.constraints, self._domain, region, known.carried)
+        slip = step_slip(found, known.constraints, self._domain, region, known.carried)
+        return replace(slip, way=self._domain.spread(region, found.way)) if self._moves else slip
 
     def _guess(self, step: TimeStep) -> Floats:
         """Traction before the step, with its trend where the load goes on smoothly [Pa]."""
         trend, duration = self._trend
+        guess = self._state.traction
+        if self._moves:
+            return self._run.moved(guess, self._time, step.time)
         if not step.smooth or duration == 0:
-            return self._state.traction
-        return self._state.traction + trend * (step.duration / duration)
+            return guess
+        return guess + trend * (step.duration / duration)
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
@@ -222,6 +270,8 @@ class FrictionalContact(Uncoupled):
             "history": self._history.restart_data(),
             "state": vars(self._state) | {"contact": vars(self._state.contact)},
             "trend": list(self._trend),
+            "time": self._time,
+            "lost": self._lost,
             "widest": self._widest,
         }
 
@@ -232,8 +282,12 @@ class FrictionalContact(Uncoupled):
         self._state = SlipState(**state | {"contact": NormalContact(**state["contact"])})
         trend, duration = restart_data["trend"]
         self._trend = trend, duration
+        self._time, self._lost = restart_data["time"], restart_data["lost"]
         self._widest = restart_data["widest"]
 
 
 def _domain_of(run: RunSetup) -> ShearDomain:
-    return ShearDomain(run.grid, transforms_by(run.transforms, run.threads), symmetry_of(run))
+    # A moving contact leaves a track, which is another region.
+    shapes = 1 if run.problem.motion.stands else 2
+    transforms = transforms_by(run.transforms, run.threads)
+    return ShearDomain(run.grid, transforms, symmetry_of(run), shapes=shapes)

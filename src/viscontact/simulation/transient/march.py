@@ -147,6 +147,9 @@ class March:
         slip = self._friction.trial(step, solution, trial.joint)
         self._friction.accept(slip)
         state = replace(state, **slip.values)
+        if state.heat is not None and state.dissipation is not None:
+            heat, power = slip.loss
+            state = replace(state, heat=state.heat + heat, dissipation=state.dissipation + power)
         self._observer.warn(slip.warnings)
         _LOG.debug(
             "step to t = %.6g s: %d iterations, residual %.2g",

@@ -20,6 +20,7 @@ from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.shear_terms import shear_terms
+from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 from viscontact.simulation.checks.adhesion import check_adhesion, law_on
@@ -100,6 +101,13 @@ class RunSetup:
         if self.position_at(time) == self.position_at(0.0):
             return self.open_gap
         return _gap(self.indenter_at(time), self.grid)
+
+    def moved(self, fields: Floats, begin: float, end: float) -> Floats:
+        """Fields moved by whole cells as the body moves between two times [s]."""
+        way = np.subtract(self.position_at(end), self.position_at(begin))
+        cells = np.rint(way / self.grid.cell_size).astype(int)
+        periodic = self.grid.periodic[0], self.grid.periodic[1]
+        return shifted(fields, (cells[0], cells[1]), periodic=periodic)
 
     def indenter_at(self, time: float) -> Indenter:
         """The indenter at its position at a time."""

@@ -10,12 +10,14 @@ value r_m at the end of the step before.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
+from viscontact.mechanics.halfspace.shear_filter import PairFilter
 from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import (
@@ -23,6 +25,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryResponse,
     response_to,
 )
+from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_shape import FieldMap
 from viscontact.simulation.transient.setup import RunSetup
@@ -85,6 +88,27 @@ class ShearHistory:
         """Response to a step."""
         responses = tuple(response_to(step, integral) for integral in self._integrals)
         return ShearStep(self._terms, responses, self._before)
+
+    def loss(
+        self, traction: Floats, domain: ShearDomain, region: Region, time: float
+    ) -> tuple[float, float]:
+        """Heat of a step to new tractions [J], and power lost at its end [W]; NaN if unknown."""
+        if not all(isinstance(each, InternalVariables) for each in self._integrals):
+            return math.nan, math.nan
+        heat = power = 0.0
+        for term, integral in zip(self._terms, self._integrals, strict=True):
+            assert isinstance(integral, InternalVariables)
+            operator = domain.parts(region).sum_of(term.direct, term.poisson)
+
+            def paired(field: Floats, operator: PairFilter = operator) -> Floats:
+                here = field[:, *region.cut]
+                moved = operator.apply(here) if here.any() else np.zeros(here.shape)
+                return np.stack([np.concatenate(here), np.concatenate(moved)])
+
+            lost = integral.loss(traction, paired)
+            heat, power = heat + lost[0], power + lost[1] * integral.clock.rate(time)
+        area = domain.shift(region).cell_area
+        return heat * area, power * area
 
     def accept(self, step: ShearStep, traction: Floats) -> None:
         """Close a step with its tractions."""

@@ -9,6 +9,8 @@ import numpy as np
 
 from viscontact.bodies.grid import Grid
 from viscontact.simulation.checks.friction import Grip
+from viscontact.simulation.checks.motion import rolling_radius
+from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import ROUNDING, SlipState, StepSlip
 from viscontact.simulation.transient.slip_step import SlipStep
 
@@ -37,6 +39,23 @@ def slip_scalars(
         "tangential_stiffness_y": stiffness[1],
         "duality_gap": step.duality_gap,
     }
+
+
+def rolling_scalars(
+    run: RunSetup, step: tuple[float, float], before: SlipState, after: SlipState
+) -> dict[str, float]:
+    """Further scalars of a body that rolls in a step between two times [s]."""
+    begin, end = step
+    way = np.subtract(run.position_at(end), run.position_at(begin))
+    length = float(np.hypot(*way))
+    if not length > 0:
+        return {"creepage": math.nan, "drive_torque": math.nan}
+    along = way / length
+    shift = float((after.motion - before.motion)[:2] @ along)
+    pushes = -float(after.forces[:2] @ along)  # the body ahead
+    radius = rolling_radius(run.problem, run.problem.motion)
+    torque = pushes * radius if math.isfinite(radius) else math.nan
+    return {"creepage": -shift / length, "drive_torque": torque}
 
 
 def slip_fields(after: SlipState, step: StepSlip) -> dict[str, Any]:

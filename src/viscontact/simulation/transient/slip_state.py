@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
-from viscontact.mechanics.contact.friction.discs import lengths
+from viscontact.mechanics.contact.friction.discs import lengths, on_circle
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import SlipSolution
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
@@ -109,13 +109,21 @@ class SlipState:
         )
 
     def after(
-        self, contact: NormalContact, step: StepSlip, coefficient: float, cell_area: float
+        self,
+        contact: NormalContact,
+        step: StepSlip,
+        coefficient: float,
+        cell_area: float,
+        *,
+        moves: bool = False,
     ) -> SlipState:
-        """State after a step in contact."""
+        """State after a step in contact, of a body that moves over the surface or stands."""
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
         mean = coefficient * (self.contact.pressure + contact.pressure) / 2
         lost = mean * lengths(step.slip)
+        if moves:
+            lost += self._lost_on_leaving(contact, step, coefficient)
         return SlipState(
             step.traction,
             np.where(contact.in_contact, self.slip + step.slip, 0.0),
@@ -126,6 +134,18 @@ class SlipState:
             step.forces,
             self.heat + float(lost.sum()) * cell_area,
         )
+
+    def _lost_on_leaving(
+        self, contact: NormalContact, step: StepSlip, coefficient: float
+    ) -> Floats:
+        """Work of friction per area in cells that a moving body leaves in a step [J/m²]."""
+        # They slip until the edge passes. As their pressure falls to zero within the step, half of
+        # their traction over the whole way of the step completes the rule of trapezoids.
+        assert step.way is not None  # kept for a body that moves
+        leaves = self.contact.in_contact & ~contact.in_contact
+        slips = on_circle(self.traction, coefficient * self.contact.pressure, leaves)
+        work = -(self.traction * step.way).sum(axis=0) / 2
+        return np.asarray(np.where(slips, np.maximum(work, 0.0), 0.0))
 
     def apart(self, gap: Floats, step: StepSlip) -> SlipState:
         """State after a step without contact, at whose end the bodies are apart by a gap [m]."""

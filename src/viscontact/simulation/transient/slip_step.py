@@ -52,7 +52,11 @@ class SlipStep:
 
 def symmetry_of(run: RunSetup) -> ShearSymmetry | None:
     """Symmetry of tractions: of coupled ones the pressure's, of others with both mirror planes."""
-    load, mirrored = run.problem.tangential, run.mirrored
+    load, mirrored = run.problem.shear_load, run.mirrored
+    if not run.problem.motion.stands:
+        # The plane along the motion, if there is one.
+        across = load is not None and any(np.logical_and(mirrored, load.acts[:2]))
+        return ShearSymmetry.of_pressure(mirrored) if any(mirrored) and not across else None
     if run.problem.is_coupled:
         return ShearSymmetry.of_pressure(mirrored) if any(mirrored) else None
     acting = [mode for mode in range(3) if load is not None and load.acts[mode]]
@@ -66,7 +70,8 @@ def shift_constraints(
 ) -> ShiftConstraints:
     """Constraints of the change of the body's motion in a step that ends at a load."""
     symmetry, motions = symmetry_of(run), list(point.motions)
-    if any(run.grid.periodic):  # a body without end does not turn
+    # A body without end does not turn, nor one that rolls on its axle.
+    if any(run.grid.periodic) or not run.problem.motion.stands:
         motions[2] = 0.0
     free = np.array([motion is None for motion in motions])
     if symmetry is not None:  # what does not act is zero
@@ -107,10 +112,12 @@ def refuse_force_apart(step: SlipStep) -> None:
 
 
 def _slip_problem(run: RunSetup, region: Region, step: SlipStep) -> SlipProblem:
-    contact = step.contact
+    contact, before = step.contact, step.before.contact
+    # Cells that a body rolls on to enter at its leading edge, not all around.
+    rolls = not run.problem.motion.stands and before.cells > 0
     entry = entry_compliance(
-        *(contact, step.before.contact, run.grid.cell_size, step.response.kappa),
-        plane=not run.grid.has_datum,
+        *(contact, before, run.grid.cell_size, step.response.kappa),
+        plane=rolls or not run.grid.has_datum,
     )
     gripping = contact.gripping[region.cut]
     return SlipProblem(

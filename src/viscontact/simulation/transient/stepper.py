@@ -32,7 +32,6 @@ from viscontact.mechanics.time_integration.extrapolation import (
     EXTRAPOLATION_POINTS,
     ElasticReference,
     predict,
-    shifted,
 )
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import response_to
@@ -297,19 +296,8 @@ class Stepper:
 
     def _move_known(self, known: list[ElasticReference], step: TimeStep) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
-        run = self._run
-        there = np.array(run.position_at(step.time))
-        moved = []
-        for each in known:
-            way = there - run.position_at(each.time)
-            cells = np.rint(way / run.grid.cell_size).astype(int)
-            fields = shifted(
-                each.fields,
-                (cells[0], cells[1]),
-                periodic=(run.grid.periodic[0], run.grid.periodic[1]),
-            )
-            moved.append(replace(each, fields=fields))
-        return moved
+        moved = self._run.moved
+        return [replace(each, fields=moved(each.fields, each.time, step.time)) for each in known]
 
     def _solve_step(
         self, step: TimeStep, posed: StepProblem

@@ -15,7 +15,7 @@ from viscontact.simulation.checks.adhesive_limits import zone_warnings
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
-from viscontact.simulation.checks.friction import coupling_warnings
+from viscontact.simulation.checks.friction import coupling_warnings, rise_warnings
 from viscontact.simulation.checks.material import (
     expansion_warnings,
     law_warnings,
@@ -54,7 +54,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings |= shift_warnings(problem)
     if run.law is not None:
         warnings |= zone_warnings(run.law, problem, run.grid)
-    warnings |= coupling_warnings(problem)
+    warnings |= coupling_warnings(problem) | rise_warnings(problem, run.grid)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,17 @@ class Region:
         """Numbers of rows and columns."""
         return self.rows[1] - self.rows[0], self.columns[1] - self.columns[0]
 
+    def within(self, larger: Region) -> tuple[slice, slice]:
+        """Index of its part of a field of a larger region."""
+        rows, columns = (
+            slice(low - first, high - first)
+            for (low, high), (first, _) in (
+                (self.rows, larger.rows),
+                (self.columns, larger.columns),
+            )
+        )
+        return rows, columns
+
 
 @dataclass(frozen=True)
 class ShearSymmetry:
@@ -94,12 +106,23 @@ class ShearDomain:
     """
 
     def __init__(
-        self, grid: Grid, transforms: Transforms, symmetry: ShearSymmetry | None = None
+        self,
+        grid: Grid,
+        transforms: Transforms,
+        symmetry: ShearSymmetry | None = None,
+        *,
+        shapes: int = 1,
     ) -> None:
+        self._shapes = shapes  # of regions whose parts are kept
         self.grid, self._transforms, self._symmetry = grid, transforms, symmetry
         self._parts: dict[tuple[int, int], Parts] = {}
         self._table: ShearTables | None = None
-        self._blocks: dict[tuple[Region, float], ShearBlock] = {}
+        self._blocks: dict[tuple[tuple[int, int], float], ShearBlock] = {}
+        self._axis = 0.0, 0.0  # of rotations [m]
+
+    def move_axis(self, position: tuple[float, float]) -> None:
+        """Count torques and rotations about another position [m]."""
+        self._axis = position
 
     def region_of(self, cells: Bools) -> Region:
         """Region that holds cells, all of the grid along its periods."""
@@ -115,6 +138,16 @@ class ShearDomain:
             (count // 2, max(span[1], count - span[0])) if mirrored else span
             for count, span, mirrored in zip(
                 self.grid.shape, spans, self._symmetry.mirrored, strict=True
+            )
+        )
+        return Region(rows, columns)
+
+    def along(self, region: Region, axes: tuple[bool, bool]) -> Region:
+        """Region with all cells of the grid along axes."""
+        rows, columns = (
+            (0, count) if whole else span
+            for count, whole, span in zip(
+                self.grid.shape, axes, (region.rows, region.columns), strict=True
             )
         )
         return Region(rows, columns)
@@ -143,12 +176,13 @@ class ShearDomain:
     def parts(self, region: Region) -> Parts:
         """Parts of the response on a region."""
         if region.shape not in self._parts:
-            self._parts = {region.shape: self._made(region.shape)}
+            latest = list(self._parts.items())[: self._shapes - 1]
+            self._parts = {region.shape: self._made(region.shape), **dict(latest)}
         return self._parts[region.shape]
 
     def block(self, region: Region, kappa: float) -> ShearBlock:
         """Operators on a region, of the response K + κ (its second part)."""
-        key = region, kappa
+        key = region.shape, kappa
         if key not in self._blocks:
             parts, cell_size = self.parts(region), self.grid.cell_size
             self._blocks = {
@@ -160,12 +194,13 @@ class ShearDomain:
                     max(cell_size) if min(self.grid.shape) > 1 else min(cell_size),
                 )
             }
-        return self._blocks[key]
+        return replace(self._blocks[key], shift=self.shift(region))
 
     def shift(self, region: Region) -> RigidShift:
-        """Rigid motions over a region, about the origin."""
+        """Rigid motions over a region, about the axis."""
         rows, columns = region.cut
-        x, y = self.grid.x[rows, None], self.grid.y[None, columns]
+        x = self.grid.x[rows, None] - self._axis[0]
+        y = self.grid.y[None, columns] - self._axis[1]
         if self._symmetry is None:
             return RigidShift(x, y, self.grid.cell_area)
         images = 2 ** sum(self._symmetry.mirrored)
@@ -188,7 +223,7 @@ class ShearDomain:
         if all(grid.periodic):
             return periodic_shear_convolution(shape, grid.cell_size, **options)
         repeats = any(grid.periodic)
-        tables = shear_tables(grid).within(shape) if repeats else self._table_for(shape)
+        tables = self._periodic_tables.within(shape) if repeats else self._table_for(shape)
         periodic = grid.periodic[0], grid.periodic[1]
         if self._symmetry is None:
             return shear_convolution(tables, periodic, **options)
@@ -196,6 +231,10 @@ class ShearDomain:
         if halved is None:
             return mirrored_shear_convolution(tables, even, **options)
         return halved_shear_convolution(tables, periodic, halved, even=even[halved], **options)
+
+    @cached_property
+    def _periodic_tables(self) -> ShearTables:
+        return shear_tables(self.grid)
 
     def _table_for(self, shape: tuple[int, int]) -> ShearTables:
         """Coefficients of a block, out of those of a larger one that it may grow to."""
