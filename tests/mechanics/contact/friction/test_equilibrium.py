@@ -185,3 +185,27 @@ def test_random_steps_follow_coulombs_law(seed):
         missing = constraints.lacking(block.shift.resultants(found.traction))
         assert np.abs(missing).max() < 1e-8 * LIMIT
         before = found.traction
+
+
+@pytest.mark.parametrize("left", [1e-3, 1e-8])
+def test_rough_contacts_close_to_full_sliding_are_solved(left):
+    """Held under a pressure that changes: next to no cell tells the motion. Seeds 0 to 7."""
+    grid = Grid((24, 24), (1.0, 1.0), periodic=(True, True))
+    block, force = shear_block(grid, 0.4), LIMIT * (1 - left)
+    constraints = under((force, 0.0, 0.0), (None, None, 0.0))
+    for seed in range(8):
+        random, traction = np.random.default_rng(seed), None
+        heights = random.normal(size=grid.shape)
+        for change in (0.0, 0.1):
+            changed = heights + change * random.normal(size=grid.shape)
+            pressure = np.where(heights > 0, np.maximum(changed, 0), 0.0)
+            pressure *= FORCE / (pressure.sum() * grid.cell_area)
+            found = solved(block, pressure, constraints, before=traction, tolerance=1e-6)
+            traction = found.traction
+            assert found.converged
+            assert traction[0].sum() * grid.cell_area == close_to(force, rel=1e-9)
+            assert found.duality_gap < 1e-6
+            # Exactly full sliding has q = (μ p, 0); what is left turns or shortens them.
+            turned = FRICTION * pressure - traction[0]
+            assert turned.sum() * grid.cell_area == close_to(left * LIMIT, abs=1e-9 * LIMIT)
+            assert (turned >= -1e-9 * pressure).all()

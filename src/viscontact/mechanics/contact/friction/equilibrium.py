@@ -6,6 +6,8 @@
 3. Newton's step on the free directions, where the curvature of the circle adds λ/(μ p) along the
    tangents. The matrix is symmetric and positive: conjugate gradients (`newton_step`).
 4. Tractions are cut off at the discs, and their resultants restored.
+5. Where next to no cell sticks and the residual does not fall, tractions of a contact that slides
+   as a whole are tried (`sliding`).
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from viscontact.mechanics.contact.friction.discs import balanced, on_circle
 from viscontact.mechanics.contact.friction.newton_step import newton_step
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
 from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_residual
+from viscontact.mechanics.contact.friction.sliding import sliding_traction
 
 #: Newton's steps of one solve.
 MAX_STEPS = 60
@@ -33,6 +36,13 @@ ROUNDING = 1e-11
 #: Residual from which on the next Newton step may meet the tolerance, and is judged in double
 #: precision at once; and tolerance that single precision is too coarse for.
 CLOSE, FINE = 3e-4, 1e-5
+
+#: Part of the cells that may stick where sliding is tried, and part of the residual that it leaves
+#: at most.
+FEW, LESS = 0.1, 0.5
+
+#: Vain tries of sliding, as under a force beyond what friction carries.
+MOST_TRIES = 3
 
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
@@ -55,7 +65,7 @@ def solve_slip(
     slips = on_circle(start, problem.bound, problem.in_contact)
     traction = balanced(start, problem.bound, shift, problem.constraints, slips)
     found = _judged(problem, block, traction, motion)
-    iterations, convolutions, failures = 0, 1, 0
+    iterations, convolutions, failures, tries = 0, 1, 0, MOST_TRIES
     for _ in range(MAX_STEPS):
         if found.error <= tolerance:
             break
@@ -75,8 +85,34 @@ def solve_slip(
         if judged.error <= tolerance <= FINE and found.error > CLOSE:
             judged = _judged(problem, block, trial, judged.motion)
             convolutions += 1
+        stalls = judged.error > max(LESS * found.error, tolerance)
+        if tries > 0 and stalls and _nearly_slides(judged):
+            slid = _slid(problem, block, trial, judged)
+            convolutions += 1
+            if slid[1].error < LESS * judged.error:
+                trial, judged = slid
+            else:
+                tries -= 1
         traction, found = trial, judged
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
+
+
+def _nearly_slides(found: SlipResidual) -> bool:
+    """True if few cells stick."""
+    sticks, slips = (
+        np.count_nonzero(each) for each in (found.directions.sticks, found.directions.slips)
+    )
+    return bool(sticks <= FEW * (sticks + slips))
+
+
+def _slid(
+    problem: SlipProblem, block: ShearBlock, traction: Floats, found: SlipResidual
+) -> tuple[Floats, SlipResidual]:
+    """Traction of a contact that slides as a whole, with its residual."""
+    pull, motion = sliding_traction(problem, block.shift, traction, found)
+    slips = on_circle(pull, problem.bound, problem.in_contact)
+    pull = balanced(pull, problem.bound, block.shift, problem.constraints, slips)
+    return pull, _judged(problem, block, pull, motion)
 
 
 def _is_better(new: SlipResidual, old: SlipResidual) -> bool:
