@@ -213,3 +213,20 @@ def test_an_oblique_push_is_warned_of_where_coupling_is_neglected_only():
             vc.FlatPunch(0.5e-3), material, vc.step(FORCE), grid, [0.0], friction=friction
         )
         assert any("is neglected" in text for text in state.warnings) is not coupling
+
+
+@pytest.mark.parametrize("body", [vc.Sphere(1e-2), vc.FlatPunch(0.5e-3)])
+def test_a_contact_that_grows_at_once_is_warned_of(body):
+    """The stick radius of a sphere depends on the steps, that of a punch does not (Spence 1975)."""
+    found, grid = [], vc.Grid((28, 28), (1.8e-3, 1.8e-3))
+    for steps in (1, 16):
+        parts = np.arange(1, steps + 1) / steps
+        load = vc.ForceHistory([0, *parts], [0, *FORCE * parts**3])
+        given = {"friction": 0.15, "tangential": NO_PULL, "errors": False, "fields": "none"}
+        ds = vc.simulate(body, elastic(0.3), load, grid, parts, **given)
+        warned = "the contact of dissimilar bodies grows" in "".join(ds.attrs["warnings"])
+        found.append((warned, float(np.sqrt(1 - ds.slip_fraction[-1]))))
+    grows = isinstance(body, vc.Sphere)
+    assert [warned for warned, _ in found] == [grows, False]
+    differs = abs(found[0][1] / found[1][1] - 1) > 0.05
+    assert differs == grows

@@ -21,6 +21,9 @@ from viscontact.units.formatting import format_quantity
 #: the surface along itself.
 NEARLY_SLIDES, LEAST_RING, LARGE_GROWTH, NEARLY_INCOMPRESSIBLE = 0.99, 2.0, 1.5, 0.45
 
+#: Part of the most cells in contact that a contact has to grow to at once to be warned of.
+GROWN = 0.25
+
 #: Part of what friction carries from which on a body counts as sliding away.
 SLIDES = 1 - 1e-9
 
@@ -147,6 +150,13 @@ class Grip:
     slipping: int  # of these
     before: int  # in contact before the step
     on_line: bool = False  # the cells are those of a line contact
+    approached: bool = False  # cells have entered over a gap
+
+    @property
+    def grows_at_once(self) -> bool:
+        """True if the contact grows much in the step, over a gap, and part of it slips."""
+        grows = self.cells > LARGE_GROWTH * self.before
+        return self.approached and grows and self.slipping > 0
 
     @property
     def ring(self) -> float:
@@ -171,6 +181,20 @@ def grip_warnings(grip: Grip) -> dict[str, str]:
             f"{grip.cells / grip.before - 1:.0%} under a tangential force; use more steps there"
         )
     return found
+
+
+def growth_warnings(grown: Grip | None, most: int) -> dict[str, str]:
+    """Warn of coupled bodies whose contact grew at once to a good part of its most cells."""
+    if grown is None or grown.cells < GROWN * most:
+        return {}
+    return {
+        "growth of coupled contacts": (
+            f"in the step to t = {format_quantity(grown.time, 's', 4)} the contact of dissimilar "
+            f"bodies grows from {grown.before} to {grown.cells} cells, and part of it slips: a "
+            "cell slips first and sticks later as the contact grows past it, so stick area, slip "
+            "and heat depend on the steps; let the load grow over 16 times or more"
+        )
+    }
 
 
 def ring_warnings(widest: float) -> dict[str, str]:

@@ -14,6 +14,9 @@ from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import ROUNDING, SlipState, StepSlip
 from viscontact.simulation.transient.slip_step import SlipStep
 
+#: Gap over the displacement from which on a cell that enters was apart before.
+TOUCHING = 1e-6
+
 
 def slip_scalars(
     grid: Grid, duration: float, before: SlipState, after: SlipState, step: StepSlip
@@ -79,7 +82,10 @@ def grip_of(grid: Grid, step: SlipStep, after: SlipState, slip_fraction: float) 
     force = float(np.hypot(*step.constraints.resultants[:2]))
     slipping = round(cells * slip_fraction)
     on_line = min(grid.shape) == 1
-    return Grip(step.time, force, step.carried, cells, slipping, held, on_line)
+    contact, before = after.contact, step.before.contact
+    open_before = before.gap > TOUCHING * contact.displacement
+    approached = bool((contact.entered_since(before) & open_before).any())
+    return Grip(step.time, force, step.carried, cells, slipping, held, on_line, approached)
 
 
 def _stiffness(before: SlipState, after: SlipState) -> tuple[float, float]:
