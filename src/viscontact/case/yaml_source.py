@@ -20,8 +20,8 @@ from viscontact.case.errors import KeyPath, SourceError
 __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 
 # Limits on values and depth: aliases can expand a small file without end, and the parser needs
-# 1.2 s for this many values and a time that grows with the square of the depth.
-_MOST_VALUES, _DEEPEST = 20_000, 12
+# 1.3 s for this many values and a time that grows with the square of the depth.
+_MOST_VALUES, _DEEPEST = 10_000, 12
 _MOST_BRACKETS = 200
 # Limits on merges and tags: merging copies every key of a mapping, and the time for a tag grows
 # with the square of its length.
