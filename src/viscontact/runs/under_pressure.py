@@ -23,8 +23,8 @@ from viscontact.mechanics.problem.surface import SurfaceTerms, clock_of, creeps,
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.descriptions import describe
 from viscontact.results.variables import COORDINATES, FIELDS, SCALARS
-from viscontact.runs.given_pressure import given_pressure
-from viscontact.runs.loaded_surface import LoadedSurface
+from viscontact.runs.given_pressure.pressure import given_pressure
+from viscontact.runs.given_pressure.surface import LoadedSurface
 from viscontact.units.numbers import real_array
 
 _ERROR = {"units": "m", "long_name": "largest error of the displacement, estimated"}
@@ -72,9 +72,9 @@ def under_pressure(
         ``pressure`` and ``displacement`` (positive into the body) over (time, x, y), ``force``,
         ``eccentricity_x``, ``eccentricity_y``, ``peak_pressure``, and the extents
         ``contact_length``, ``contact_width`` of the loaded cells over ``time``, in SI units.
-        ``displacement_error`` is the largest error over the cells. Of a formula it is three
-        quarters of the change by cells three times as long and wide, which is largest at edges;
-        elsewhere the displacement is much better. Of a map it is the change if it is averaged over
+        ``displacement_error`` is the largest error over the cells. Of a formula it is the change if
+        that is found ten times less closely, or by larger cells if it moves or changes at many
+        instants, which leaves its edges out. Of a map it is the change if it is averaged over
         twice as long and wide cells: three times the error of a pressure that is smooth over the
         cells, and about the error of one with edges between their borders, but no error for a
         pressure that is uniform in each cell, under which the displacement is exact. Added are
@@ -90,9 +90,9 @@ def under_pressure(
     Notes
     -----
     u(t) = Σ K_m ∫ J_m(t - t') dp(t'), exact for a pressure that is uniform in each cell and linear
-    in time (Love 1929 for a half-space; Boltzmann 1874). A formula is averaged over cells, divided
-    where it has edges, and over up to 27² small ones in each for the displacement, which is
-    extrapolated from two sizes of them; not if it moves or changes at many instants. On a grid
+    in time (Love 1929 for a half-space; Boltzmann 1874). A formula is divided into polygons of
+    linear pressure where it is not smooth, along its edges, which act on the cells near by one by
+    one, and as multipoles on others: the displacement is exact to 1e-6. On a grid
     that is periodic along both axes the displacement of a half-space counts from the mean plane, on
     one that is periodic along one axis from a place at the distance of its size; layers on a rigid
     base need no such datum.

@@ -18,7 +18,8 @@ from viscontact.bodies.loads import Travel
 from viscontact.bodies.materials.layers import Layer, Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.results.stresses import section_stresses
-from viscontact.runs.cell_means import cell_means
+from viscontact.runs.given_pressure.near_field import NearField
+from viscontact.runs.given_pressure.resolved import resolved
 from viscontact.runs.under_pressure import under_pressure
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 
@@ -103,7 +104,9 @@ def _circle(cells: int, load: _Round) -> tuple[Comparison, ...]:
 
     def stress(cells: int) -> Floats:
         finer = Grid((cells, cells), (2.6 * a, 2.6 * a))
-        means = cell_means(pressure, finer, 3e-6)  # without the displacement of the formula
+        means = resolved(
+            pressure, NearField(finer)
+        ).means  # without the displacement of the formula
         ds = under_pressure(means, _BODY, finer, errors=False)
         return np.asarray(section_stresses(ds, depths, y=0.0).stress_zz.values[0, :, cells // 2])
 
@@ -115,9 +118,7 @@ def _circle(cells: int, load: _Round) -> tuple[Comparison, ...]:
         exact = load.centre * _PRESSURE * a / _MODULUS
         return single(exact, float(found[cells, cells])), below
     r = np.hypot(grid.x[:, None], grid.y)
-    surface = np.asarray(load.displacement(_PRESSURE, a, _MODULUS, r))
-    off_rim = np.abs(r - a) > 0.15 * a
-    return _field(surface[off_rim], found[off_rim]), _field(surface, found), below
+    return _field(load.displacement(_PRESSURE, a, _MODULUS, r), found), below
 
 
 def _strip(cells: int) -> tuple[Comparison, ...]:
@@ -149,7 +150,7 @@ def _layer(cells: int) -> tuple[Comparison, ...]:
 def _wave(cells: int) -> tuple[Comparison, ...]:
     """A wave of pressure in motion: size and lag of the displacement are those of J*(k V)."""
     instant, delayed, time, length, speed = 5e-10, 4.5e-9, 1.0, 1e-3, 5e-5
-    wave, way = 2 * math.pi / length, 20 * length
+    wave, way = 2 * math.pi / length, 2 * length  # 40 times the time of the law
     body = Material(CreepSeries(instant, [delayed], [time]), poisson_ratio=0.0)
     motion = Travel([0.0, way / speed], y=[0.0, way])
 
@@ -190,16 +191,15 @@ CASES: tuple[Case, ...] = (
             name,
             author,
             (
-                Quantity("displacement, but at the rim", "m", 1e-6, 1e-6, has_order=False),
-                Quantity("displacement, rim and all", "m", rim, rim, has_order=False),
-                Quantity("stress on the axis", "Pa", 1e-4, stress, has_order=False),
+                Quantity("displacement", "m", 1e-6, 1e-6, has_order=False),
+                Quantity("stress on the axis", "Pa", 1e-4, 1e-6, has_order=False),
             ),
             (8, 16, 32),
             partial(_circle, load=load),
         )
-        for name, author, load, rim, stress in (
-            ("uniform pressure on a circle", "Love 1929", _UNIFORM, 5e-4, 3e-5),
-            ("Hertz's pressure", "Hertz 1882", _HERTZ, 5e-5, 3e-6),
+        for name, author, load in (
+            ("uniform pressure on a circle", "Love 1929", _UNIFORM),
+            ("Hertz's pressure", "Hertz 1882", _HERTZ),
         )
     ),
     *(
@@ -207,15 +207,15 @@ CASES: tuple[Case, ...] = (
             name,
             "Love 1929",
             (
-                Quantity("displacement at the centre", "m", 5e-6, centre, has_order=False),
-                Quantity("stress on the axis", "Pa", 1e-4, 3e-6, has_order=False),
+                Quantity("displacement at the centre", "m", 1e-6, 1e-6, has_order=False),
+                Quantity("stress on the axis", "Pa", 1e-4, 1e-6, has_order=False),
             ),
             (8, 16, 32),
             partial(_circle, load=load),
         )
-        for name, load, centre in (
-            ("parabolic pressure on a circle", _PARABOLA, 1e-7),
-            ("conical pressure on a circle", _CONE, 5e-6),
+        for name, load in (
+            ("parabolic pressure on a circle", _PARABOLA),
+            ("conical pressure on a circle", _CONE),
         )
     ),
     Case(

@@ -44,21 +44,19 @@ def displacement_under(
     surface: SurfaceTerms,
     grid: Grid,
     times: Floats,
-    parts: tuple[int, int] = (1, 1),
 ) -> Floats:
     """Displacement at times [m], shape (times, nx, ny), under the pressures at the instants [Pa].
 
     The instants begin with that at which the pressure comes, and contain the times, or are fewer if
-    the pressure is held. Of so many cells along each axis, `parts`, those in the middle are kept.
+    the pressure is held.
     """
     weights = [creep_weights(term.compliance, instants, times) for term in surface.terms]
     operators = [ContactDomain(grid, response=t.response).convolution for t in surface.terms]
-    found = np.zeros((times.size, *(n // m for n, m in zip(grid.shape, parts, strict=True))))
+    found = np.zeros((times.size, *grid.shape))
     if instants.size < times.size:
         for index, pressure in enumerate(pressures):
             for operator, of_term in zip(operators, weights, strict=True):
-                moved = middles(operator.apply(pressure), parts)
-                found += of_term[:, index, None, None] * moved
+                found += of_term[:, index, None, None] * operator.apply(pressure)
         return found
     weighted = np.zeros((len(weights), times.size, *grid.shape))  # ∫ J_m dp of each term [-]
     for index, pressure in enumerate(pressures):
@@ -67,11 +65,5 @@ def displacement_under(
                 total[k] += of_term[k, index] * pressure
     for operator, total in zip(operators, weighted, strict=True):
         for field, each in zip(found, total, strict=True):
-            field += middles(operator.apply(each), parts)
+            field += operator.apply(each)
     return found
-
-
-def middles(field: Floats, parts: tuple[int, int]) -> Floats:
-    """Values in the middle one of so many cells along each axis, odd numbers."""
-    along, across = parts
-    return field[along // 2 :: along, across // 2 :: across]

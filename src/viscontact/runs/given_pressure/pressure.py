@@ -16,8 +16,10 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import recorded_grid
-from viscontact.runs.cell_means import cell_means
-from viscontact.runs.pressure_files import TABLES, read_pressure
+from viscontact.runs.given_pressure.boxes import PointValues
+from viscontact.runs.given_pressure.files import TABLES, read_pressure
+from viscontact.runs.given_pressure.near_field import NearField
+from viscontact.runs.given_pressure.resolved import BY_POINTS, FINE, resolved
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
 
@@ -38,18 +40,13 @@ class GivenPressure(ABC):
         """True for a pressure that is not linear in time between its instants."""
         return False
 
-    @property
-    def is_known_everywhere(self) -> bool:
-        """True for a pressure that is known between the centres of cells, too."""
-        return False
-
     @abstractmethod
     def at(
-        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+        self, time: float, position: tuple[float, float], grid: Grid, *, edges: bool = True
     ) -> Floats:
         """Mean pressure in each cell at a time [s], with its frame at a position [m]; (nx, ny).
 
-        The tolerance is that of the means of a formula, over the largest.
+        Without edges those of a formula are not looked for.
         """
 
 
@@ -62,7 +59,7 @@ class PressureMap(GivenPressure):
     axes: tuple[Floats, Floats] | None = None  # of the cells, along x and y [m]
 
     def at(
-        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+        self, time: float, position: tuple[float, float], grid: Grid, *, edges: bool = True
     ) -> Floats:
         """Mean pressure in each cell; a map that moves is shared out to those that it covers."""
         field = self._held(time)
@@ -104,15 +101,15 @@ class PressureFormula(GivenPressure):
         """True if the time is an argument."""
         return self.timed
 
-    @property
-    def is_known_everywhere(self) -> bool:
-        """True."""
-        return True
-
     def at(
-        self, time: float, position: tuple[float, float], grid: Grid, tolerance: float = np.inf
+        self, time: float, position: tuple[float, float], grid: Grid, *, edges: bool = True
     ) -> Floats:
         """Mean pressure in each cell."""
+        values = self.values_at(time, position, grid)
+        return resolved(values, NearField(grid), FINE if edges else BY_POINTS).means
+
+    def values_at(self, time: float, position: tuple[float, float], grid: Grid) -> PointValues:
+        """Pressure at points at a time [s], with its frame at a position [m]."""
 
         def value(x: Floats, y: Floats) -> Floats:
             along, across = (
@@ -121,7 +118,7 @@ class PressureFormula(GivenPressure):
             )
             return self._value(along, across, time)
 
-        return cell_means(value, grid, tolerance)
+        return value
 
     def _value(self, x: Floats, y: Floats, time: float) -> Floats:
         wanted = np.broadcast_shapes(x.shape, y.shape)

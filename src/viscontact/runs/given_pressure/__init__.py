@@ -1,0 +1,1 @@
+"""Pressures that are given: maps and formulas, and the displacement under them."""
