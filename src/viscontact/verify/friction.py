@@ -13,7 +13,14 @@ from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, Paraboloid, Roller
 from viscontact.bodies.laws import Elastic
-from viscontact.bodies.loads import ForceHistory, LoadHistory, TangentialHistory, step
+from viscontact.bodies.loads import (
+    ForceHistory,
+    LoadHistory,
+    TangentialHistory,
+    Travel,
+    step,
+    tangential_step,
+)
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.state import ContactState
 from viscontact.simulation.transient.state_generator import march
@@ -113,6 +120,35 @@ def _cylinder(cells: int) -> tuple[Comparison, ...]:
     )
 
 
+def _driven(cells: int) -> tuple[Comparison, ...]:
+    """Creepage and stick width of a long roller that drives, rolled until it is steady."""
+    line, part = 2e3, 0.64  # force per length [N/m], traction over what friction carries
+    exact = reference.hertz_line(line, _RADIUS, _MODULUS)
+    left = math.sqrt(1 - part)
+    edge, steps, length = 2 * exact.half_width / cells, 3 * cells, 1e-3
+    travel, count = steps * edge, 7 * cells
+    grid = Grid(
+        (1, count), (length, count * edge), periodic=(True, False), centre=(0.0, travel / 2)
+    )
+    *_, last = march(
+        Paraboloid(math.inf, _RADIUS),
+        _ELASTIC,
+        step(line * length, tilt_x=0.0, tilt_y=0.0),
+        grid,
+        np.arange(steps + 1.0),
+        friction=_UNCOUPLED,
+        tangential=tangential_step(force_y=-part * _FRICTION * line * length),
+        motion=Travel([0.0, steps], y=[0.0, travel], rolling=True),
+    )
+    assert last.creepage is not None
+    assert last.stick_area is not None
+    whole = _FRICTION * exact.half_width / _RADIUS  # from which on all slips
+    return (
+        single(whole * (1 - left), last.creepage),
+        single(2 * left * exact.half_width, last.stick_area / length),
+    )
+
+
 def _torsion(cells: int) -> tuple[Comparison, ...]:
     """Twist under the torque at which a part sticks."""
     # The twist is 3 μ W/(4 π G a²) (K - E)(k'), k'² = 1 - c²/a². What is added turns the part that
@@ -188,6 +224,16 @@ CASES = (
         ),
         (20, 40, 80),
         _cylinder,
+    ),
+    Case(
+        "long roller that drives",
+        "Carter 1926",
+        (
+            Quantity("creepage", "1", fast_bound=1e-2, bound=1e-3),
+            Quantity("stick width", "m", fast_bound=1e-1, bound=5e-2, has_order=False),
+        ),
+        (10, 20, 40),
+        _driven,
     ),
     Case(
         "sphere, pressed and twisted",

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.quiver import Quiver
 
+import viscontact as vc
 from closeness import close_to
 from synthetic_results import CYCLE_HEAT, GRIP, STICK, gripping_sphere, maxwell_sphere
 from viscontact import plot
@@ -122,3 +123,22 @@ def test_the_report_states_when_all_slides(sphere: xr.Dataset) -> None:
     slides["slip_fraction"] = sphere.slip_fraction.where(sphere.time < 4, 1.0)
     assert sliding_begins(slides) == 4.0
     assert sliding_text(slides) == "The whole contact slides, first at t = 4 s."
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_a_roller_with_a_creepage_has_its_stick_map_and_report():
+    """It has no tangential load, whose cycles these show."""
+    rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((12, 16), (3e-3, 4e-3))
+    ds = vc.simulate(
+        vc.Paraboloid(0.01, 0.01),
+        rubber,
+        vc.step(0.05, tilt_x=0.0, tilt_y=0.0),
+        grid,
+        [0.0, 0.5, 1.0],
+        friction=0.3,
+        motion=vc.Travel([0.0, 1.0], y=[0.0, 5e-4], creepage=0.02),
+        errors=False,
+    )
+    assert fretting_cycles(ds, "stick-map") == ()
+    shown = vc.plot.stick_map(ds)
+    assert len(shown.axes) == 2  # the instants under traction
