@@ -22,8 +22,9 @@ from viscontact.units.formatting import format_quantity
 ROUNDING = 1e-12
 
 
-#: Cells fewer that are near, where the error is found.
-LESS_REACH = 2
+#: Error that a change does not show, over the tolerance; and cells fewer that are near where that
+#: change is found.
+OF_TOLERANCE, LESS_REACH = 5.0, 2
 
 #: Most instants times cells along the grid at which the edges of a formula are found, with so many
 #: cells at least.
@@ -60,7 +61,7 @@ class LoadedSurface:
         cell = max(self._edges_of_cells()) / parts
         if isinstance(self.given, PressureFormula) and LEAST * cell <= thickness:
             found, lost = self._of_formula(self.given, surface, times, parts)
-            relative = FINE.tolerance + OF_LAYERS * (cell / thickness) ** 4 + lost
+            relative = OF_TOLERANCE * FINE.tolerance + OF_LAYERS * (cell / thickness) ** 4 + lost
             error = relative * np.abs(found).max(axis=(1, 2))
             if errors and self._has_edges(times):
                 coarse, _ = self._of_formula(self.given, surface, times, parts, coarsely=True)
