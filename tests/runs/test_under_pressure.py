@@ -190,6 +190,19 @@ def test_wave_of_pressure_on_two_periods_is_exact_to_a_millionth(shape: tuple[in
     assert apart < min(1e-6, float(found.displacement_error[0]) / exact.max())
 
 
+@pytest.mark.parametrize("place", [(0.11e-3, 0.07e-3), (0.31e-3, -0.22e-3)])
+def test_spot_smaller_than_a_cell_is_not_missed(place: tuple[float, float]) -> None:
+    radius, grid = 0.12e-3, vc.Grid((8, 9), (4e-3, 4.5e-3))
+
+    def spot(x: Any, y: Any) -> Any:
+        return PEAK * (np.hypot(x - place[0], y - place[1]) < radius)
+
+    found = vc.under_pressure(spot, BODY, grid)
+    r = np.hypot(grid.x[:, None] - place[0], grid.y - place[1])
+    exact = vc.reference.circle_displacement(PEAK, radius, MODULUS, r)
+    assert np.abs(found.displacement.values[0] - exact).max() < 1e-5 * exact.max()
+
+
 @pytest.mark.slow
 def test_stated_error_covers_a_pressure_without_bound() -> None:
     def punch(x: Any, y: Any) -> Any:
@@ -272,6 +285,7 @@ REFUSED: dict[str, tuple[Any, dict[str, Any], str]] = {
         "arrays x and y of any shape",
     ),
     "infinite": (lambda x, y: 1 / (0 * x + 0 * y), {"grid": GRID}, "must be finite"),
+    "elsewhere as a formula": (lambda x, y: disc(x - 1, y), {"grid": GRID}, "is 0 wherever"),
     "text": ("nowhere.nc", {"grid": GRID}, "nowhere"),
     "a result without fields": (xr.Dataset(), {"grid": GRID}, "no stored pressure"),
     "a body": (MAP, {"grid": GRID, "material": 1e9}, "material must be"),

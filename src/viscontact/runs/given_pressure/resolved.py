@@ -18,6 +18,9 @@ from viscontact.runs.given_pressure.patches import Patches
 #: Gauss' rule on a cell: four points along each axis.
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
 
+#: Further places along each axis at which the series is tried, so that no small spot is missed.
+SPREAD = (2 * np.arange(6) - 5) / 6
+
 #: Part of a misfit of the series in a cell, times its edge, that displaces the surface there.
 OF_MISFIT = 0.1
 
@@ -144,7 +147,7 @@ def _rough(cells: Boxes, series: Floats, tolerance: float, grid: Grid) -> Bools:
         )
 
     found = np.zeros(cells.cell.size, dtype=bool)
-    for nodes in (NODES, TRIED):
+    for nodes in (NODES, TRIED, SPREAD):
         places = np.broadcast_arrays(nodes[:, None, None], nodes[None, :, None])
         apart = np.abs(cells.on(nodes) - fitted(series, *places))
         found |= OF_MISFIT * apart.max(axis=(0, 1)) > tolerance

@@ -21,7 +21,6 @@ from viscontact.units.formatting import format_quantity
 #: Tension over the largest pressure that is rounding.
 ROUNDING = 1e-12
 
-
 #: Error that a change does not show, over the tolerance; and cells fewer that are near where that
 #: change is found.
 OF_TOLERANCE, LESS_REACH = 5.0, 2
@@ -190,6 +189,15 @@ class LoadedSurface:
         return along, across
 
     def _check(self, pressure: Floats, grid: Grid, time: float) -> None:
+        if self._held and isinstance(self.given, PressureFormula) and not pressure.any():
+            along, across = (
+                f"{format_quantity(each[0], 'm', 4)} to {format_quantity(each[-1], 'm', 4)}"
+                for each in (grid.x, grid.y)
+            )
+            raise ValueError(
+                f"pressure: pressure(x, y) is 0 wherever it was tried in the cells, x = {along} "
+                f"and y = {across}; give a grid around the load, of cells that are not much larger"
+            )
         least = float(pressure.min())
         if not self.tension and least < -ROUNDING * np.abs(pressure).max():
             x, y = grid.largest_at(-pressure)
