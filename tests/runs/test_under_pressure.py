@@ -226,7 +226,7 @@ def test_noise_as_a_formula_is_not_divided_without_end(monkeypatch: pytest.Monke
 
     means = resolved(noise, NearField(GRID), Effort(1e-6, 1000)).means
     assert means.mean() == close_to(0.5, rel=0.02)
-    assert sum(called) < 500 * 1000
+    assert sum(called) < 400 * 1000
 
 
 def test_stated_error_covers_that_of_a_map() -> None:

@@ -23,7 +23,7 @@ from viscontact.mechanics.problem.surface import SurfaceTerms, clock_of, creeps,
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.descriptions import describe
 from viscontact.results.variables import COORDINATES, FIELDS, SCALARS
-from viscontact.runs.given_pressure.pressure import given_pressure
+from viscontact.runs.given_pressure.reading import given_pressure
 from viscontact.runs.given_pressure.surface import LoadedSurface
 from viscontact.units.numbers import real_array
 

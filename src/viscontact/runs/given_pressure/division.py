@@ -15,7 +15,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.runs.given_pressure.boxes import Boxes
 from viscontact.runs.given_pressure.edge_cut import EDGES, cut
-from viscontact.runs.given_pressure.patches import Patches, rectangles, together
+from viscontact.runs.given_pressure.patches import Patches, rectangle_edges, together
 
 #: Most halvings of a cell.
 HALVINGS = 20
@@ -92,7 +92,9 @@ class Division:
         half = self.size[:, None] / 2
         pressure = np.concatenate([level[None], slopes / half]).T
         x, y = place * half
-        return together([rectangles(cell, x, y, (half / parts).T, pressure), *self.cut_off])
+        edges = rectangle_edges(x, y, (half / parts).T)
+        boxes = Patches(edges, np.repeat(np.arange(cell.size), 4), cell, pressure)
+        return together([boxes, *self.cut_off])
 
 
 def divide(boxes: Boxes, tolerance: float, most_boxes: int) -> tuple[Patches, float]:

@@ -25,8 +25,8 @@ from viscontact.runs.given_pressure.cell_series import (
     legendre_to,
     stencils,
 )
-from viscontact.runs.given_pressure.patches import Patches, rectangles
-from viscontact.runs.given_pressure.sampled_cells import as_samples, factor_of_cells
+from viscontact.runs.given_pressure.patches import Patches, rectangle_edges
+from viscontact.runs.given_pressure.periodic_cells import as_samples, factor_of_cells
 
 #: Longer edges of a cell to each side of it that are near to it, and those over which its patches
 #: count one by one.
@@ -177,9 +177,7 @@ class NearField:
             mean = np.outer(mean_x, mean_y).ravel()
             along, across = np.outer(slope_x, mean_y).ravel(), np.outer(mean_x, slope_y).ravel()
             terms.append([mean - along * x - across * y, along, across])
-        half = np.tile(halves, (x.size, 1))
-        none = np.zeros(x.size, dtype=np.intp)
-        return rectangles(none, x, y, half, np.zeros((x.size, 3))).edges, np.array(terms)
+        return rectangle_edges(x, y, np.tile(halves, (x.size, 1))), np.array(terms)
 
     def of_cells(self, series: Floats) -> Floats:
         """What series in the cells, (orders, nx, ny), add near by, per 1/E* [Pa m]; (nx, ny)."""

@@ -65,11 +65,10 @@ class Patches:
         return np.asarray(factors[:, None] * of_cells)
 
 
-def rectangles(cell: Integers, x: Floats, y: Floats, half: Floats, pressure: Floats) -> Patches:
-    """Patches of rectangles around x, y of half edges (rectangles, 2), under linear pressures."""
+def rectangle_edges(x: Floats, y: Floats, half: Floats) -> Floats:
+    """Edges of rectangles around x, y, of half edges (rectangles, 2); shape (4 rectangles, 4)."""
     corners = np.stack([x, y], axis=1)[:, None] + CORNERS * half[:, None]
-    edges = np.concatenate([corners, np.roll(corners, -1, axis=1)], axis=2)
-    return Patches(edges.reshape(-1, 4), np.repeat(np.arange(cell.size), 4), cell, pressure)
+    return np.concatenate([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 4)
 
 
 def together(parts: Sequence[Patches]) -> Patches:

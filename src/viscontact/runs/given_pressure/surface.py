@@ -13,8 +13,9 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.motion import Motion
 from viscontact.mechanics.problem.pressure_history import creep_weights, displacement_under
 from viscontact.mechanics.problem.surface import SurfaceTerms
+from viscontact.runs.given_pressure.formula import PressureFormula
 from viscontact.runs.given_pressure.near_field import REACH, NearField
-from viscontact.runs.given_pressure.pressure import GivenPressure, PressureFormula
+from viscontact.runs.given_pressure.pressure import GivenPressure
 from viscontact.runs.given_pressure.resolved import BY_POINTS, COARSE, FINE, resolved
 from viscontact.units.formatting import format_quantity
 

@@ -183,18 +183,34 @@ def grip_warnings(grip: Grip) -> dict[str, str]:
     return found
 
 
-def growth_warnings(grown: Grip | None, most: int) -> dict[str, str]:
-    """Warn of coupled bodies whose contact grew at once to a good part of its most cells."""
-    if grown is None or grown.cells < GROWN * most:
-        return {}
-    return {
-        "growth of coupled contacts": (
-            f"in the step to t = {format_quantity(grown.time, 's', 4)} the contact of dissimilar "
-            f"bodies grows from {grown.before} to {grown.cells} cells, and part of it slips: a "
-            "cell slips first and sticks later as the contact grows past it, so stick area, slip "
-            "and heat depend on the steps; let the load grow over 16 times or more"
-        )
-    }
+@dataclass(frozen=True)
+class Growth:
+    """Step in which a contact has grown at once to the most cells, and most cells so far."""
+
+    grown: Grip | None = None
+    most: int = 0
+
+    def after(self, grip: Grip) -> Growth:
+        """With a further step."""
+        more = self.grown is None or grip.cells > self.grown.cells
+        grown = grip if grip.grows_at_once and more else self.grown
+        return Growth(grown, max(self.most, grip.cells))
+
+    @property
+    def warnings(self) -> dict[str, str]:
+        """Warning of coupled bodies whose contact grew at once to a good part of its most cells."""
+        grown = self.grown
+        if grown is None or grown.cells < GROWN * self.most:
+            return {}
+        return {
+            "growth of coupled contacts": (
+                f"in the step to t = {format_quantity(grown.time, 's', 4)} the contact of "
+                f"dissimilar bodies grows from {grown.before} to {grown.cells} cells, and part of "
+                "it slips: a cell slips first and sticks later as the contact grows past it, so "
+                "stick area, slip and heat depend on the steps; let the load grow over 16 times "
+                "or more"
+            )
+        }
 
 
 def ring_warnings(widest: float) -> dict[str, str]:

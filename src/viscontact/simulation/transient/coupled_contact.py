@@ -36,7 +36,7 @@ from viscontact.mechanics.halfspace.coupling_filter import CouplingFilter, coupl
 from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.simulation.checks.friction import Grip, growth_warnings
+from viscontact.simulation.checks.friction import Grip, Growth
 from viscontact.simulation.transient.coupling_history import CouplingHistory, CouplingStep
 from viscontact.simulation.transient.frictional_contact import (
     FrictionalContact,
@@ -76,9 +76,7 @@ class CoupledContact(FrictionalContact):
         super().__init__(run, friction, load)
         self._memory = CouplingHistory(run)
         self._operator, self._computed = _operator_of(run), _computed_cells(run)
-        #: Step in which the contact has grown at once to the most cells, and most cells so far.
-        self._grown: Grip | None = None
-        self._most = 0
+        self._growth = Growth()
         #: Operators of regions, which are kept.
         self._block: tuple[Region, Coupling] | None = None
 
@@ -142,18 +140,15 @@ class CoupledContact(FrictionalContact):
     @property
     def warnings_at_end(self) -> dict[str, str]:
         """Warnings of the whole run, by kind."""
-        return super().warnings_at_end | growth_warnings(self._grown, self._most)
+        return super().warnings_at_end | self._growth.warnings
 
     def accept(self, trial: SlipTrial) -> None:
         """Close a step with its pressure and tractions."""
         super().accept(trial)
         assert trial.coupling is not None  # it is a trial of this contact
         self._memory.accept(trial.coupling, self._state.contact.pressure)
-        grip = trial.grip
-        assert grip is not None
-        self._most = max(self._most, grip.cells)
-        if grip.grows_at_once and (self._grown is None or grip.cells > self._grown.cells):
-            self._grown = grip
+        assert trial.grip is not None
+        self._growth = self._growth.after(trial.grip)
 
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
@@ -198,16 +193,16 @@ class CoupledContact(FrictionalContact):
 
     def restart_data(self) -> RestartData:
         """Return the state after a step as plain data."""
-        grown = None if self._grown is None else vars(self._grown)
-        more = {"memory": self._memory.restart_data(), "grown": grown, "most": self._most}
+        grown = None if self._growth.grown is None else vars(self._growth.grown)
+        more = {"memory": self._memory.restart_data(), "grown": grown, "most": self._growth.most}
         return super().restart_data() | more
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue the same run from restart data."""
         super().restore(restart_data)
         self._memory.restore(restart_data["memory"])
-        grown, self._most = restart_data["grown"], restart_data["most"]
-        self._grown = None if grown is None else Grip(**grown)
+        grown = restart_data["grown"]
+        self._growth = Growth(None if grown is None else Grip(**grown), restart_data["most"])
 
 
 def _operator_of(run: RunSetup) -> Coupling:
