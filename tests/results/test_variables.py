@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from campaigns import tried
 from closeness import close_to
 from reports_without_pictures import without_pictures
 from returned import some
@@ -163,21 +164,27 @@ OPTIONAL = [name for name in SCALARS if name not in REQUIRED]
 MOVING = next(name for name in OPTIONAL if SCALARS[name].moving)
 
 
+#: Scalars that a result is without; neighbours belong to each other, and are left out by turns.
+TURNS = tried(6, len(OPTIONAL))
+WITHOUT = [OPTIONAL[turn::TURNS] for turn in range(TURNS)]
+
+
 @pytest.fixture(
     params=[
-        *(NEW, MOVING),
-        *(pytest.param(name, marks=pytest.mark.slow) for name in OPTIONAL if name != MOVING),
+        *(pytest.param([name], id=name) for name in (NEW, MOVING)),
+        *(pytest.param(names, marks=pytest.mark.slow, id=names[0]) for names in WITHOUT),
     ]
 )
 def older(
     request: pytest.FixtureRequest, extended: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> xr.Dataset:
-    """A result that was written before a scalar existed."""
-    name = request.param
-    monkeypatch.setitem(
-        variables.SCALARS, name, dataclasses.replace(SCALARS[name], places=EVERYWHERE, label="New")
-    )
-    return extended.drop_vars([each for each in (name, error_name(name)) if each in extended])
+    """A result that was written before scalars existed."""
+    absent = []
+    for name in request.param:
+        new = dataclasses.replace(SCALARS[name], places=EVERYWHERE, label="New")
+        monkeypatch.setitem(variables.SCALARS, name, new)
+        absent += [each for each in (name, error_name(name)) if each in extended]
+    return extended.drop_vars(set(absent))
 
 
 def test_older_result_is_shown_without_the_new_scalar(

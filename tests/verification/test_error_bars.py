@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from campaigns import tried
 from returned import some
 from verification.exact_contacts import ExactRun, drawn
 from viscontact.mechanics.problem.problem import Problem
@@ -108,7 +109,7 @@ def test_bars_hold_the_true_error_in_95_of_100_and_are_not_wide() -> None:
 
 @pytest.mark.slow
 def test_bars_hold_for_every_quantity(campaign) -> None:
-    tally = tallied(seed=77, count=315, most=36)
+    tally = tallied(seed=77, count=tried(120, 315), most=36)
     for line in tally.lines:
         campaign(line)
     assert np.mean(tally.all >= 1) >= COVERED
