@@ -377,7 +377,7 @@ def test_errors_of_jumps_and_pull_off_are_stated_and_hold_against_finer_cells():
 def test_condition_of_a_program_keeps_its_error_where_bodies_adhere():
     speed = f"{DEPTH * 1e6:.9f} um/s"
     program = vc.LoadProgram(
-        f"move at {speed} for 0.3 s; retract at {speed} until force reaches {-FORCE * 1e6:.9f} uN"
+        f"move at {speed} for 0.3 s; retract at {speed} until force reaches {-1.5e6 * FORCE:.9f} uN"
     )
     found = vc.simulate(
         *(SPHERE, GEL, program, grid(32), np.linspace(0.0, 4.0, 9)),
@@ -386,3 +386,28 @@ def test_condition_of_a_program_keeps_its_error_where_bodies_adhere():
     )
     (error,) = np.atleast_1d(found.attrs["event_time_errors"])
     assert 0 < error < 0.1
+
+
+@pytest.mark.slow
+def test_jumps_and_pull_off_of_a_program_have_bars_that_hold_against_finer_cells():
+    speed = f"{DEPTH * 1e6:.9f} um/s"
+    program = vc.LoadProgram(
+        f"move at {speed} for 0.3 s; retract at {speed} until force reaches "
+        f"{-1.5e6 * FORCE:.9f} uN; hold height for 0.1 s; retract at {speed} until contact is lost"
+    )
+
+    def carried_out(cells, errors):
+        return vc.simulate(
+            *(SPHERE, GEL, program, grid(cells), np.linspace(0.0, 4.0, 9)),
+            adhesion=adhesion(),
+            errors=errors,
+            fields="none",
+        ).attrs
+
+    coarse, fine = carried_out(28, errors=True), carried_out(56, errors=False)
+    assert sorted(coarse["event_kind"].split()) == ["condition", "condition", "pull_off"]
+    errors = np.array(coarse["event_time_errors"])
+    assert (np.abs(np.subtract(coarse["event_times"], fine["event_times"])) <= errors).all()
+    assert (errors < 0.2).all()
+    for name in ("pull_off_force", "pull_off_time"):
+        assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"]

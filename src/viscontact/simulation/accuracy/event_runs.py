@@ -57,8 +57,9 @@ def own_events(
         float(length) * (LONGEST if ended_by else 1.0)
         for length, ended_by in zip(np.diff(own.times), own.ended_by, strict=True)
     ]
-    course = ProgramCourse(own.program, sum(lengths), lengths)
     problem = replace(coarse.problem, grid=coarse.grid)
+    adheres = problem.adhesion is not None
+    course = ProgramCourse(own.program, sum(lengths), lengths, may_pull=adheres)
     search = EventSearch(
         problem, course, step_ends, event_tolerance=EVENT_TOLERANCE, on_state=on_state
     )

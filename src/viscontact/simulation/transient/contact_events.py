@@ -47,7 +47,8 @@ class ContactEvents:
             kind: EventKind = "jump_in" if touches else "pull_off"
             forces, approaches = (before.force, now.force), (before.approach, now.approach)
             pull = self._pull if kind == "pull_off" else (math.nan, math.nan)
-            self._waiting.append(ContactEvent(kind, now.time, forces, approaches, *pull))
+            event = ContactEvent(kind, now.time, forces, approaches, *pull)
+            self._waiting = [*self._waiting, event]  # copies of this may go on by themselves
 
     def reported(self) -> tuple[ContactEvent, ...]:
         """Return the events since the last report."""

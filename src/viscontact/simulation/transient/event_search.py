@@ -11,7 +11,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from copy import copy
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -54,9 +53,9 @@ COUNTED, COUNTED_TOLERANCE, MIDDLES = (
 #: contact is lost for certain.
 LOST_MARGIN = 3.0
 
-#: Time from a pull-off to the end of the segment that it ends, as a part of the run: within it the
-#: run has lost contact, too.
-PULL_OFF_MARGIN = 1e-4
+#: Time from a pull-off to the end of the segment that it ends, as a part of its instant: within it
+#: the run has lost contact, too, which takes other steps.
+PULL_OFF_MARGIN = 1e-3
 
 #: Requested error of steps by which the hereditary integral of the search is planned [-].
 PLANNED_ERROR = 1e-3
@@ -144,8 +143,18 @@ class EventSearch:
             solved, met = self._first_event(solved)
             self._accept(solved)
             if met is not None:
+                if met.scalar == "contact" and self._run.law is not None:
+                    self._leave(end)
                 return met
         return None
+
+    def _leave(self, end: float) -> None:
+        """Go on behind a pull-off, to where the run has lost contact for certain."""
+        begin = self._state.time
+        time = min((1 + PULL_OFF_MARGIN) * begin, end)
+        if time > begin * (1 + KINK_TOLERANCE):
+            step = TimeStep(time, time - begin, time, smooth=False, is_shortest=True)
+            self._accept(self._solve(step))
 
     def _first_event(self, solved: _SolvedStep) -> tuple[_SolvedStep, Condition | None]:
         """Return a step, or its part up to the first condition that is met in it, and this."""
@@ -182,6 +191,10 @@ class EventSearch:
         """Steps that their error determines, after the last one."""
         request = AdaptiveTimes(end, self._tolerance)
         stops = self._stops[self._stops < end]
+        if self._step_ends is not None:
+            wanted = self._step_ends(len(self._course.controls), self._course.begin, end)
+            margin = KINK_TOLERANCE * end
+            stops = wanted[(wanted > self._course.begin + margin) & (wanted < end - margin)]
         surface = self._run.problem.surface
         load = replace(self._run.problem, load=history).contact_load
         least = MIN_STEP_FRACTION if self._run.law is None else SHORTEST_ADHESIVE_STEP
@@ -201,7 +214,7 @@ class EventSearch:
         self._friction.accept(solved.slip)
         self._last, self._state, self._observer = solved.step, solved.state, solved.observer
         if self._on_state is not None:
-            self._on_state(solved.state)
+            self._on_state(solved.observer.with_events(solved.state))
         self.states.append(solved.state.without_fields())
         reach = _reach(self._run, solved.state)
         self.reach = max(self.reach[0], reach[0]), max(self.reach[1], reach[1])
@@ -217,7 +230,7 @@ class EventSearch:
         if trial.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(not_converged(self._run, step, trial.solution))
         solution = self._stepper.whole_solution(trial)
-        observer = copy(self._observer)  # it adds the work of each step that it sees
+        observer = self._observer.copied()  # it adds the work of each step that it sees
         state = observer.evaluate(step, trial.point, solution)
         slip = None if slides else self._slip_of(step, solution, trial)
         found: dict[str, Any] = {"slip_fraction": 1.0} if slip is None else dict(slip.values)
@@ -243,12 +256,10 @@ class EventSearch:
         """Return the step up to the instant at which a condition is met."""
         step = crossed.step
         begin = step.time - step.duration
-        if condition.scalar == "contact" and self._run.law is not None:
-            # A jump has no root. The run itself, in other steps, finds it as accurately as this.
-            late = step.time + PULL_OFF_MARGIN * self._course.latest
-            time = max(step.time, min(late, self._course.planned_end))
-            return self._solve(TimeStep(time, time - begin, time, smooth=False, is_shortest=True))
-        if condition.scalar in COUNTED:
+        adheres = condition.scalar == "contact" and self._run.law is not None
+        if adheres and math.isinf(crossed.trial.change):
+            return crossed  # a jump has no root, and takes the shortest step
+        if adheres or condition.scalar in COUNTED:
             first = _excess(condition, self._state) > 0
             _, past = self._around(step, lambda at: (_excess(condition, at.state) > 0) != first)
             return self._solve((past or crossed).step)
@@ -258,19 +269,14 @@ class EventSearch:
                 return _excess(condition, self._state)
             if time == step.time:
                 return _excess(condition, crossed.state)
-            return _excess(condition, self._solve(_step_to(time)).state)
-
-        def _step_to(time: float) -> TimeStep:
-            # Part of a step that has been solved: a jump within it is one.
-            return TimeStep(time, time - begin, time, step.smooth, is_shortest=True)
+            return _excess(condition, self._solve(_part_of(step, time)).state)
 
         tolerance = self._event_tolerance * step.duration
         met = float(scipy.optimize.brentq(excess, begin, step.time, xtol=tolerance))
         # An event right at the begin would be a step of no length; a lost contact is past its root.
         least = 2 * KINK_TOLERANCE * step.time
-        return self._solve(
-            _step_to(min(max(met + LOST_MARGIN * tolerance, begin + least), step.time))
-        )
+        certain = min(max(met + LOST_MARGIN * tolerance, begin + least), step.time)
+        return self._solve(_part_of(step, certain))
 
     def _last_grip(self, step: TimeStep) -> _SolvedStep:
         """Return the longest part of a step at whose end the body does not slide away."""
@@ -294,7 +300,7 @@ class EventSearch:
                 middle = low + part * (high - low)
                 time = begin + middle * step.duration
                 try:
-                    solved = self._solve(TimeStep(time, time - begin, time, step.smooth))
+                    solved = self._solve(_part_of(step, time))
                     break
                 except ConvergenceError:  # at an instant at which a cell hardly slips or sticks
                     continue
@@ -305,6 +311,12 @@ class EventSearch:
             else:
                 low, before = middle, solved
         return before, past
+
+
+def _part_of(step: TimeStep, time: float) -> TimeStep:
+    """First part of a step that has been solved, up to a time [s]; a jump within it is one."""
+    begin = step.time - step.duration
+    return TimeStep(time, time - begin, time, step.smooth, is_shortest=True)
 
 
 def _reach(run: RunSetup, state: ContactState) -> tuple[float, float]:

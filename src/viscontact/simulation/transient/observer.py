@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -93,6 +94,12 @@ class Observer:
         self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
         self._peak_checked = 0.0
 
+    def copied(self) -> Observer:
+        """Return an observer that goes on by itself, for a step that may not be accepted."""
+        same = copy(self)
+        same._events, same._passage = copy(self._events), copy(self._passage)
+        return same
+
     def _set_geometry(self, run: RunSetup, time: float = 0.0) -> None:
         self._run, self._position, indenter = run, run.position_at(time), run.indenter_at(time)
         self._outline = trace_outline(indenter, run.grid)
@@ -180,9 +187,14 @@ class Observer:
         if last:
             moving = self._motion.warnings()
         found = self._warnings.new(self._open, mesh, unreported | moving)
-        if self._events is not None:
-            state = replace(state, events=self._events.reported())
+        state = self.with_events(state)
         return replace(state, warnings=found) if found else state
+
+    def with_events(self, state: ContactState) -> ContactState:
+        """Add the events of bodies that adhere since the last call."""
+        if self._events is None:
+            return state
+        return replace(state, events=self._events.reported())
 
     def refuse_coarse_mesh(self) -> None:
         """Raise DomainError at the end if the largest contact had fewer than four cells across."""
