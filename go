@@ -174,6 +174,7 @@ BENCHMARKS = {
     "start-up": "start_up.py",
     "storing": "storing.py",
     "friction": "friction.py",
+    "adhesion": "adhesion.py",
     "steady": "steady.py",
     "layers": "layers.py",
     "error-bars": "error_bars.py",

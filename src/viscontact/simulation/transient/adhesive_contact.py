@@ -30,19 +30,30 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 
 #: Largest change of the force in a step, over the force or the attraction of the undeformed bodies
-#: where they touch, 2 pi w R of a sphere. The largest pull is then read within 1e-3.
-LARGEST_CHANGE = 0.02
+#: where they touch, 2 pi w R of a sphere; and where the surfaces meet or part without a jump, whose
+#: instant and force the step tells.
+LARGEST_CHANGE, CHANGE_WHERE_MET = 0.15, 0.005
+
+#: Largest error of the predicted force in those, and power of the step with which it grows. A state
+#: near the extrapolated one is on the same branch, and a parabola through three states reads the
+#: largest pull within a tenth of this error.
+LARGEST_ERROR, ERROR_ORDER = 0.01, 3
+
+#: Largest change with a law that ends abruptly: its front crosses cell after cell, which no
+#: extrapolation foresees.
+ABRUPT_CHANGE = 0.02
 
 #: Part of a change of the attraction that counts as one of the force [-].
 ATTRACTION_SHARE = 0.5
 
-#: Change of the force, in those, from which on the shortest step is taken for a jump.
-JUMP = 1.5
+#: Change of the force, over the same, from which on the shortest step is taken for a jump, and one
+#: that ends a smooth part of the run.
+JUMP, ENDS_SMOOTH = 0.03, 0.02
 
 
 @dataclass(frozen=True, eq=False)
 class AdhesiveStep:
-    """Solution of a step, its outcome, and its change of the force over the largest one allowed."""
+    """Solution of a step, its outcome, and its length over the longest one allowed."""
 
     problem: AdhesiveProblem
     solution: AdhesiveSolution
@@ -61,6 +72,8 @@ class AdhesiveContact:
         self._law, self._domain, self._tolerance = law, domain, tolerance
         self._traction: Floats | None = None
         self._force = self._attraction = 0.0
+        self._touches = False
+        self._moves: Floats | None = None  # of a small change of the attraction [m]
         touching = open_gap - open_gap.min()
         #: Force of the undeformed bodies where they touch [N].
         self._at_touch = self._sum(law.traction(touching, np.zeros(touching.shape)))
@@ -82,11 +95,14 @@ class AdhesiveContact:
             return self._stiff(problem)
         if guess is not None and self._traction is not None:
             motion = problem.contact.constraints.with_prescribed(guess.motion)
-            near = solve_near(problem, self._domain, Guess(guess.values, motion), self._tolerance)
-            change = self._change(near) if near.converged else math.inf
-            if change <= (JUMP if step.is_shortest else 1.0):
+            predicted = self._sum(guess.pressure)
+            start, is_last = Guess(guess.values, motion), step.is_shortest or step.is_jump
+            near = solve_near(problem, self._domain, start, self._tolerance, is_last=is_last)
+            change = self._length(near, predicted) if near.converged else math.inf
+            jumps = not near.converged or self._change(near) > JUMP
+            if change <= 1.0 or (step.is_shortest and not jumps):
                 return AdhesiveStep(problem, near, _outcome(near), change)
-            if not (step.is_shortest or step.is_jump):
+            if not is_last:
                 return AdhesiveStep(problem, near, _outcome(near), change, is_too_long=True)
         return self._jumped(problem)
 
@@ -95,12 +111,16 @@ class AdhesiveContact:
         self._traction = step.solution.traction
         self._force = self._sum(step.solution.found.pressure)
         self._attraction = self._sum(step.solution.traction)
+        self._touches = bool(step.solution.in_contact.any())
+        if math.isinf(step.change):
+            self._moves = None
 
     def stability(self, step: AdhesiveStep) -> float:
         """Factor by which a small change of the attraction in a step returns; NaN if unknown."""
         if step.outcome not in (Outcome.CONVERGED, Outcome.NO_CONTACT):
             return math.nan
-        return stability(step.problem, self._domain, step.solution)
+        factor, self._moves = stability(step.problem, self._domain, step.solution, self._moves)
+        return factor
 
     def restart_data(self) -> RestartData:
         """Return the attraction and force of the last step as plain data."""
@@ -108,16 +128,19 @@ class AdhesiveContact:
             "traction": self._traction,
             "force": self._force,
             "attraction": self._attraction,
+            "touches": self._touches,
+            "moves": self._moves,
         }
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data of the same run."""
         self._traction, self._force = restart_data["traction"], restart_data["force"]
         self._attraction = restart_data["attraction"]
+        self._touches, self._moves = restart_data["touches"], restart_data["moves"]
 
     def map_fields(self, enlargement: GridEnlargement) -> None:
         """Continue on a larger grid."""
-        self._domain = enlargement.large
+        self._domain, self._moves = enlargement.large, None
         if self._traction is not None:
             self._traction = enlargement.pressure(self._traction)
 
@@ -130,7 +153,7 @@ class AdhesiveContact:
         if found is None:
             apart = released(problem, self._domain)
             return AdhesiveStep(problem, apart, Outcome.PULLED_OFF, math.inf)
-        change = math.inf if self._change(found) > 1 else 1.0
+        change = math.inf if self._change(found) > ENDS_SMOOTH else 1.0
         return AdhesiveStep(problem, found, _outcome(found), change)
 
     def _at_first(self, problem: AdhesiveProblem) -> Floats:
@@ -155,15 +178,29 @@ class AdhesiveContact:
         return AdhesiveStep(problem, found, _outcome(found), 1.0)
 
     def _change(self, solution: AdhesiveSolution) -> float:
-        force, attraction = self._sum(solution.found.pressure), self._sum(solution.traction)
+        """Change of the force since the last step, over the scale of forces [-]."""
+        return self._apart(solution, self._force, self._attraction)
+
+    def _length(self, solution: AdhesiveSolution, predicted: float) -> float:
+        """Length of a step over the longest one, from its change and the predicted force [N]."""
+        if self._law.is_abrupt:
+            return self._change(solution) / ABRUPT_CHANGE
+        pulled = float(solution.predicted) * self._domain.whole.cell_area
+        error = self._apart(solution, predicted, pulled * self._domain.symmetry_count)
+        by_error = float(np.power(error / LARGEST_ERROR, 1 / ERROR_ORDER))
+        meets = bool(solution.in_contact.any()) != self._touches
+        largest = CHANGE_WHERE_MET if meets else LARGEST_CHANGE
+        return max(by_error, self._change(solution) / largest)
+
+    def _apart(self, solution: AdhesiveSolution, force: float, attraction: float) -> float:
+        """Distance of a solution from a force and attraction [N], over the scale of forces [-]."""
+        now, pulled = self._sum(solution.found.pressure), self._sum(solution.traction)
         # Where the pull is largest, the force hardly changes, but the attraction does.
-        change = max(
-            abs(force - self._force), ATTRACTION_SHARE * abs(attraction - self._attraction)
-        )
+        apart = max(abs(now - force), ATTRACTION_SHARE * abs(pulled - attraction))
         # On a rough surface the force is the small difference of pressure and attraction.
-        pulled = ATTRACTION_SHARE * max(attraction, self._attraction)
-        largest = max(abs(force), abs(self._force), self._at_touch, pulled)
-        return change / (LARGEST_CHANGE * largest) if largest else 0.0
+        share = ATTRACTION_SHARE * max(pulled, self._attraction)
+        largest = max(abs(now), abs(self._force), self._at_touch, share)
+        return apart / largest if largest else 0.0
 
     def _sum(self, pressure: Floats) -> float:
         """Force of a pressure on the computed cells, with their mirror images [N]."""

@@ -12,7 +12,11 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.adhesion.descent import NEAR, Descended, Descent
-from viscontact.mechanics.contact.adhesion.newton import NewtonSearch, newton_search
+from viscontact.mechanics.contact.adhesion.newton import (
+    MAX_STEPS,
+    NewtonSearch,
+    newton_search,
+)
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveSolution,
@@ -25,6 +29,9 @@ from viscontact.mechanics.contact.problem import Guess
 #: the front of a law that ends abruptly may go to and fro for more than twenty of them.
 TRIED_STEPS, LAST_STEPS = 12, 60
 
+#: Newton steps of a search that a shorter time step can follow.
+NEAR_STEPS = 8
+
 #: Fall of the changes of a descent from which on Newton's method is tried again [-].
 FALLEN = 1e-2
 
@@ -33,10 +40,16 @@ ROUNDING = 1e-6
 
 
 def solve_near(
-    problem: AdhesiveProblem, domain: ContactDomain, guess: Guess, tolerance: float
+    problem: AdhesiveProblem,
+    domain: ContactDomain,
+    guess: Guess,
+    tolerance: float,
+    *,
+    is_last: bool = True,
 ) -> AdhesiveSolution:
-    """Newton's method alone, from a guess whose memory is used."""
-    return _solution(problem, newton_search(problem, domain, guess, tolerance), 0)
+    """Newton's method alone, from a guess whose memory is used; a few steps unless `is_last`."""
+    steps = MAX_STEPS if is_last or problem.law.is_abrupt else NEAR_STEPS
+    return _solution(problem, newton_search(problem, domain, guess, tolerance, steps), 0)
 
 
 def solve_from(
@@ -118,4 +131,5 @@ def _solution(problem: AdhesiveProblem, found: NewtonSearch, convolutions: int) 
         convolutions + found.convolutions,
         found.converged,
         checked.attraction.traction,
+        found.predicted,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -18,28 +19,39 @@ def gmres(
     caller keeps. Ends where the norm of what is left is down to `goal`.
     """
     size = norm(right)
-    basis, factors, left = [right / size] if size else [], np.empty(0), size
-    hessenberg = np.zeros((max_vectors + 1, max_vectors))
-    while left > goal and len(factors) < max_vectors:
-        column = len(factors)
+    basis, left, number = [right / size] if size else [], size, 0
+    # Givens rotations make the Hessenberg matrix triangular as it grows (Saad & Schultz, 3.2).
+    triangle, rotated = np.zeros((max_vectors, max_vectors)), np.zeros(max_vectors + 1)
+    rotated[0] = size
+    turns: list[tuple[float, float]] = []
+    while left > goal and number < max_vectors:
         new = image(basis[-1])
-        for row, known in enumerate(basis):  # modified Gram-Schmidt
-            hessenberg[row, column] = along = float(np.einsum("i,i->", known, new))
-            new = new - along * known
-        hessenberg[column + 1, column] = length = norm(new)
-        factors, left = _least_squares(hessenberg[: column + 2, : column + 1], size)
+        column = []
+        for known in basis:  # modified Gram-Schmidt
+            column.append(float(np.einsum("i,i->", known, new)))
+            new = new - column[-1] * known
+        length = norm(new)
+        for row, (cosine, sine) in enumerate(turns):
+            upper, lower = column[row], column[row + 1]
+            column[row : row + 2] = cosine * upper + sine * lower, cosine * lower - sine * upper
+        diagonal = math.hypot(column[-1], length)
+        if diagonal == 0:
+            break
+        cosine, sine = column[-1] / diagonal, length / diagonal
+        turns.append((cosine, sine))
+        column[-1] = diagonal
+        triangle[: number + 1, number] = column
+        rotated[number : number + 2] = cosine * rotated[number], -sine * rotated[number]
+        number += 1
+        left = abs(float(rotated[number]))
         if length == 0:
             break
         basis.append(new / length)
-    return factors, len(factors)
-
-
-def _least_squares(hessenberg: Floats, size: float) -> tuple[Floats, float]:
-    """Factors of the directions with the least residual, and its norm."""
-    right = np.zeros(len(hessenberg))
-    right[0] = size
-    factors = np.linalg.lstsq(hessenberg, right, rcond=None)[0].astype(np.float64)
-    return factors, norm(hessenberg @ factors - right)
+    factors = np.zeros(number)
+    for row in reversed(range(number)):
+        later = float(triangle[row, row + 1 : number] @ factors[row + 1 :])
+        factors[row] = (rotated[row] - later) / triangle[row, row]
+    return factors, number
 
 
 def norm(vector: Floats) -> float:

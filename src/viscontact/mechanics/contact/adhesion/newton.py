@@ -33,11 +33,16 @@ from viscontact.mechanics.contact.problem import Guess
 #: Newton steps of one search; from an extrapolated guess 3 to 6 are needed.
 MAX_STEPS = 20
 
-#: Vectors of GMRES, and the reduction of the residual at which it ends [-].
-MAX_VECTORS, REDUCTION = 40, 1e-2
+#: Vectors of GMRES.
+MAX_VECTORS = 40
 
-#: Part of the tolerance down to which a linear system is solved.
-INNER_TOLERANCE = 0.1
+#: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
+#: change, from a residual of so many strengths on, and of a law that ends abruptly everywhere.
+REDUCTION_AFAR, REDUCTION, NEAR, REDUCTION_ABRUPT = 1e-1, 1e-3, 1e-2, 1e-2
+
+#: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
+#: the largest residual; less for a law that ends abruptly.
+INNER_TOLERANCE, INNER_ABRUPT = 0.5, 0.1
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
@@ -59,6 +64,7 @@ class NewtonSearch:
     steps: int
     convolutions: int
     converged: bool
+    predicted: float  # sum of the attraction at the start over the cells [Pa]
 
 
 def newton_search(
@@ -68,20 +74,29 @@ def newton_search(
     tolerance: float,
     max_steps: int = MAX_STEPS,
 ) -> NewtonSearch:
-    """Search from a pressure, whose memory is used, until the residual meets the tolerance."""
-    iterate, convolutions = start, 1
-    domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+    """Search from a pressure, whose memory is used, until the residual meets the tolerance.
+
+    Its displacement may be a guess, too.
+    """
+    iterate, convolutions = start, 0
     checked = residual_of(problem, domain, iterate)
+    if checked.error <= tolerance:
+        domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+        checked = residual_of(problem, domain, iterate)
+        convolutions = 1
     least, may_cycle = checked.error, problem.law.is_abrupt
+    predicted = float(checked.attraction.traction.sum())
     for step in range(max_steps):
         if checked.error <= tolerance:
-            return NewtonSearch(iterate, checked, step, convolutions, converged=True)
+            return NewtonSearch(iterate, checked, step, convolutions, True, predicted)
         if not checked.error <= DIVERGED * max(least, tolerance):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
         last = Guess(iterate.values.copy(), iterate.motion) if may_cycle else iterate
         before = checked.error
-        motion = iterate.motion + system.solve(iterate.pressure)
+        reduction = REDUCTION if checked.error <= NEAR else REDUCTION_AFAR
+        reduction = REDUCTION_ABRUPT if may_cycle else reduction
+        motion = iterate.motion + system.solve(iterate.pressure, reduction)
         iterate = Guess(iterate.values, motion)
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
         checked = residual_of(problem, domain, iterate)
@@ -91,7 +106,7 @@ def newton_search(
         least = min(least, checked.error)
         convolutions += system.convolutions + 1
     converged = checked.error <= tolerance
-    return NewtonSearch(iterate, checked, max_steps, convolutions, converged)
+    return NewtonSearch(iterate, checked, max_steps, convolutions, converged, predicted)
 
 
 def _midway(one: Guess, other: Guess) -> Guess:
@@ -161,10 +176,11 @@ class LinearStep:
         )
         cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
         lacking = problem.lacking(iterate, domain)
-        goal = INNER_TOLERANCE * tolerance * scale
+        inner = INNER_ABRUPT if problem.law.is_abrupt else INNER_TOLERANCE
+        goal = inner * tolerance * scale
         return cls(problem, patch, cells, cut, lacking, goal)
 
-    def solve(self, pressure: Floats) -> Floats:
+    def solve(self, pressure: Floats, reduction: float) -> Floats:
         """Add the change to a pressure on the whole grid [Pa]; return that of the motion."""
         here = self._patch.cut(pressure)
         missing = -(here[self._cells] + self._traction)
@@ -177,7 +193,7 @@ class LinearStep:
 
         change, motion = self._direction(right, self._lacking)
         left = right - self._image(change, motion)
-        goal = max(REDUCTION * norm(right), self._goal)
+        goal = max(reduction * norm(right), self._goal)
         factors, _ = gmres(image, left, goal, MAX_VECTORS)
         for factor, (direction, moved) in zip(factors, directions, strict=True):
             change += factor * direction

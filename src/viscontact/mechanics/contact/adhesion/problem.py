@@ -104,6 +104,7 @@ class AdhesiveSolution(ContactSolution):
     """Solution of an adhesive contact; its residual is the larger one of gap and traction."""
 
     traction: Floats  # attraction, positive [Pa]
+    predicted: float = 0.0  # sum of the attraction of the guess over the cells [Pa]
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,6 +31,13 @@ from viscontact.mechanics.contact.rigid_balance import Constraints
 #: costs the solution of a linear system. They leave an error below a percent.
 VECTORS, VECTORS_RISING = 2, 4
 
+#: Part of a change by which it differs from a multiple of the one returned where it is the change
+#: sought; the error of the factor is the square of it.
+RETURNS_ALIKE = 0.1
+
+#: Reduction of the residual of these systems [-].
+REDUCTION = 1e-2
+
 #: Slopes below this part of the largest one are none [-].
 NEGLIGIBLE_SLOPE = 1e-6
 
@@ -39,24 +46,38 @@ def stability(
     problem: AdhesiveProblem,
     domain: ContactDomain,
     solution: ContactSolution,
-) -> float:
-    """Factor by which a small change of the attraction returns; < 1 if stable."""
+    moved: Floats | None = None,
+) -> tuple[float, Floats | None]:
+    """Factor by which a small change of the attraction returns, < 1 if stable; and its moves.
+
+    `moved` are those of a state before [m].
+    """
     pulled = attraction(problem.law, solution.gap, domain.periodic)
-    if problem.contact.compliance == 0:
-        return 0.0  # the surfaces do not move
     falls = np.where(solution.in_contact, 0.0, -pulled.slope)
     falls[~np.isfinite(solution.gap)] = 0.0
-    if not falls.any():
-        return 0.0
+    if problem.contact.compliance == 0 or not falls.any():
+        return 0.0, None  # the surfaces do not move, or do not attract each other
+    vectors = VECTORS if problem.law.decreasing is problem.law else VECTORS_RISING
     change = np.where(falls > 0, falls, 0.0)
+    if moved is not None and (falls * moved).any():
+        change = falls * moved
     changes, moves = [], []
-    for _ in range(VECTORS if problem.law.decreasing is problem.law else VECTORS_RISING):
+    for _ in range(vectors):
         changes.append(change * (problem.law.strength / np.abs(change).max()))
         moves.append(_opened_by(problem, domain, solution, falls, changes[-1]))
         change = falls * moves[-1]
-        if not change.any():
+        if not change.any() or (moved is not None and _is_multiple(change, changes[-1])):
             break
-    return _largest_ratio(changes, moves, falls)
+    return _largest_ratio(changes, moves, falls), moves[-1]
+
+
+def _is_multiple(change: Floats, other: Floats) -> bool:
+    """True if one change is about a multiple of another."""
+    along, size, length = (
+        float(np.einsum("ij,ij->", *pair))
+        for pair in ((change, other), (change, change), (other, other))
+    )
+    return along > 0 and along**2 >= (1 - RETURNS_ALIKE**2) * size * length
 
 
 def _largest_ratio(changes: list[Floats], moves: list[Floats], falls: Floats) -> float:
@@ -91,7 +112,7 @@ def _opened_by(
     )
     start = Guess(np.zeros((2, *domain.shape)), np.zeros(3))
     system = LinearStep.of(_unloaded(problem), domain, start, held, 1e-3)
-    motion = system.solve(start.pressure)
+    motion = system.solve(start.pressure, REDUCTION)
     moved = problem.contact.compliance * domain.convolution.apply(start.pressure)
     moved -= domain.whole.plane.field(motion)
     return np.where(falls == 0, 0.0, -moved)
