@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -70,12 +71,15 @@ class ContactEvent(NamedTuple):
     approach: tuple[float, float]  # before and after it [m]
     pull: float  # largest pull of the contact that ends [N]; NaN where one begins
     pull_time: float  # when it was [s]
+    #: Fall of the pull beside it over the square of the time from there [N/s²]; infinite where
+    #: contact is lost at the largest pull.
+    pull_bend: float = math.nan
 
 
 def as_event(plain: Sequence[Any]) -> ContactEvent:
     """Return an event of plain data."""
-    kind, time, forces, approaches, pull, pull_time = plain
-    return ContactEvent(kind, time, tuple(forces), tuple(approaches), pull, pull_time)
+    kind, time, forces, approaches, *pull = plain
+    return ContactEvent(kind, time, tuple(forces), tuple(approaches), *pull)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import ContactState, EventKind
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.checks.mesh import cells_across_spots
 from viscontact.simulation.checks.singularities import (
@@ -53,10 +53,15 @@ class CoarserResult:
     #: Ends of the segments of a load program, NaN where they ended in another way than those of the
     #: run; none of other loads [s].
     segment_ends: Floats = field(default_factory=lambda: np.zeros(0))
-    #: Largest pull [N] and its time [s] of the bodies that it pulls off each other.
+    #: Largest pull [N] and its time [s] of the bodies that it pulls off each other, and its bend.
     pull_off: tuple[float, float] = (math.nan, math.nan)
+    pull_bend: float = math.nan  # see `ContactEvent` [N/s²]
     #: Kinds and times [s] of its jumps into contact and losses of it.
-    contact_events: tuple[tuple[str, float], ...] = ()
+    contact_events: tuple[tuple[EventKind, float], ...] = ()
+
+    def times_of(self, kind: EventKind) -> list[float]:
+        """Times of its jumps into contact, or of its losses of it [s]."""
+        return [time for each, time in self.contact_events if each == kind]
 
     def at(self, instants: Floats, *, segment_ends: Floats) -> CoarserResult:
         """The result at instants of the original run, without those that are NaN [s]."""
@@ -85,8 +90,8 @@ class ObservedStates:
         self._run, self._spacing = run, spacing
         self._end_cells = cells_at_end(run.open_gap)
         self._states: list[ContactState] = []
-        self._pull_off = math.nan, math.nan
-        self._contact_events: list[tuple[str, float]] = []
+        self._pull_off, self._pull_bend = (math.nan, math.nan), math.nan
+        self._contact_events: list[tuple[EventKind, float]] = []
         self._ends: list[tuple[float, float]] = []
         self._at_end: list[bool] = []
         self._bends: list[tuple[float, float]] = []
@@ -108,6 +113,7 @@ class ObservedStates:
             self._contact_events.append((event.kind, event.time))
             if event.kind == "pull_off" and not event.pull <= self._pull_off[0]:
                 self._pull_off = event.pull, event.pull_time
+                self._pull_bend = event.pull_bend
         self._ends.append(self._end_cells.pressures(pressure))
         self._at_end.append(bool(state.in_contact[self._end_cells.beside].any()))
         self._examine_body(state)
@@ -135,6 +141,7 @@ class ObservedStates:
             np.array(self._rises, dtype=bool).reshape(-1, 2),
             self._is_sharp,
             pull_off=self._pull_off,
+            pull_bend=self._pull_bend,
             contact_events=tuple(self._contact_events),
         )
 

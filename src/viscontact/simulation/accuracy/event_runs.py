@@ -13,9 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import DomainError
+from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.loads import MixedHistory
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE
+from viscontact.simulation.checks.adhesion import LEAST_CELLS, cells_across_zone
 from viscontact.simulation.transient.event_search import EventSearch
 from viscontact.simulation.transient.segments_so_far import ProgramCourse
 from viscontact.simulation.transient.setup import RunSetup
@@ -57,7 +61,7 @@ def own_events(
         float(length) * (LONGEST if ended_by else 1.0)
         for length, ended_by in zip(np.diff(own.times), own.ended_by, strict=True)
     ]
-    problem = replace(coarse.problem, grid=coarse.grid)
+    problem = _with_the_same_range(coarse)
     adheres = problem.adhesion is not None
     course = ProgramCourse(own.program, sum(lengths), lengths, may_pull=adheres)
     search = EventSearch(
@@ -80,6 +84,17 @@ def own_events(
         compared[np.abs(taken - end).argmin()] = own.times[number + 1]
         ends[number] = end
     return OwnEvents(compared, ends)
+
+
+def _with_the_same_range(coarse: RunSetup) -> Problem:
+    """Problem of a coarser run, whose range was found for the run's cells; DomainError if short."""
+    problem, law = replace(coarse.problem, grid=coarse.grid), coarse.law
+    if problem.adhesion is None or law is None:
+        return problem
+    if cells_across_zone(law, problem, coarse.grid) < LEAST_CELLS:
+        raise DomainError("grid: the cells of a coarser run are too large for the cohesive zone")
+    kind = problem.adhesion.law
+    return replace(problem, adhesion=Adhesion(law.work, strength=law.strength, law=kind))
 
 
 def _times_within(own: MixedHistory, number: int, times: Floats) -> Floats:

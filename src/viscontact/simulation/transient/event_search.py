@@ -28,6 +28,7 @@ from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.adaptive_steps import MIN_STEP_FRACTION, AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation.transient.contact_events import PULL_OFF_MARGIN
 from viscontact.simulation.transient.coupled_contact import frictional_contact
 from viscontact.simulation.transient.frictional_contact import SlipTrial
 from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
@@ -52,10 +53,6 @@ COUNTED, COUNTED_TOLERANCE, MIDDLES = (
 #: Distance from the root to the instant of the event, in tolerances of the search: there a lost
 #: contact is lost for certain.
 LOST_MARGIN = 3.0
-
-#: Time from a pull-off to the end of the segment that it ends, as a part of its instant: within it
-#: the run has lost contact, too, which takes other steps.
-PULL_OFF_MARGIN = 1e-3
 
 #: Requested error of steps by which the hereditary integral of the search is planned [-].
 PLANNED_ERROR = 1e-3

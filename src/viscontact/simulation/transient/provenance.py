@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
+import numpy as np
+
 from viscontact import __version__
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import MixedHistory
@@ -15,6 +17,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactEvent
 from viscontact.results.descriptions import describe
 from viscontact.simulation.checks.ends import error_of_ends
+from viscontact.simulation.transient.contact_events import PULL_OFF_MARGIN
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
@@ -84,12 +87,14 @@ def contact_event_attributes(
         strict=True,
     )
     rows = [(time, error, line, "condition", unknown, unknown) for time, error, line in program]
-    stated = list(described.get(JUMP_TIME_ERRORS, ()))
-    errors = stated if len(stated) == len(events) else [math.nan] * len(events)
-    for event, error in zip(events, errors, strict=True):
-        row = (event.time, error, _event_line(event), event.kind, event.force, event.approach)
+    ends = [(time, error) for time, error, *_ in rows]
+    for event, error in zip(events, _jump_errors(events, described), strict=True):
+        stated = _with_segments(event.time, error, ends)
+        row = (event.time, stated, _event_line(event), event.kind, event.force, event.approach)
         rows.append(row)
     rows.sort(key=lambda row: row[0])
+    pull_time = math.nan if largest is None else largest.pull_time
+    pull_error = described.get("pull_off_time_error", math.nan)
     return {
         "events": "\n".join(row[2] for row in rows),
         "event_times": [row[0] for row in rows],
@@ -99,9 +104,25 @@ def contact_event_attributes(
         "event_approach": [approach for row in rows for approach in row[5]],
         "pull_off_force": math.nan if largest is None else largest.pull,
         "pull_off_force_error": described.get("pull_off_force_error", math.nan),
-        "pull_off_time": math.nan if largest is None else largest.pull_time,
-        "pull_off_time_error": described.get("pull_off_time_error", math.nan),
+        "pull_off_time": pull_time,
+        "pull_off_time_error": _with_segments(pull_time, pull_error, ends),
     }
+
+
+def _jump_errors(events: Sequence[ContactEvent], described: Mapping[str, Any]) -> list[float]:
+    """Errors of jumps from coarser runs [s]; NaN where these have other numbers of a kind."""
+    kinds, stated = [event.kind for event in events], dict(described.get(JUMP_TIME_ERRORS, ()))
+    left = {kind: iter(found) for kind, found in stated.items() if len(found) == kinds.count(kind)}
+    return [next(left[kind]) if kind in left else math.nan for kind in kinds]
+
+
+def _with_segments(time: float, error: float, ends: Sequence[tuple[float, float]]) -> float:
+    """Error of an instant [s], with those of the ends of segments, by their times, until then."""
+    # A segment that begins late makes all in it late; a pull-off may end its segment.
+    earlier = [found for end, found in ends if end <= time]
+    ended = [found for end, found in ends if time <= end <= (1 + PULL_OFF_MARGIN) * time]
+    known = np.fmax.reduce([error, *ended])
+    return float(np.fmax.reduce([known, *earlier])) if math.isfinite(known) else math.nan
 
 
 def _event_line(event: ContactEvent) -> str:
