@@ -26,7 +26,7 @@ STAMP = VENV / "go-stamp"  # written last: without it the environment is incompl
 LOG = VENV / "go-setup.log"
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 OLDEST = (3, 11)
-AT_ONCE = 8  # packages between two lines about what is left
+AT_ONCE = 16  # packages between two lines about what is left
 # Parts of the messages of pip and uv about missing network access.
 OFFLINE = ("dns error", "connection", "name resolution", "unreachable", "timed out", "retries")
 

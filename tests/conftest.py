@@ -54,20 +54,25 @@ CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put slow campaigns at the beginning of each half of the tests.
+    """Put slow tests that take long at the beginning of each half of the tests.
 
     Each of two processes begins with one half, and takes over tests that the other one has not
     begun: short ones at the end keep both in use.
     """
-    dear = [item for item in items if _is_slow_campaign(item)]
-    others = [item for item in items if not _is_slow_campaign(item)]
+    dear = [item for item in items if _takes_long(item)]
+    others = [item for item in items if not _takes_long(item)]
     half = len(others) // 2
     items[:] = [*dear[::2], *others[:half], *dear[1::2], *others[half:]]
 
 
-def _is_slow_campaign(item: pytest.Item) -> bool:
-    fixtures = getattr(item, "fixturenames", ())
-    return CAMPAIGN in fixtures and item.get_closest_marker("slow") is not None
+#: Files with slow tests of half a minute and more, beside campaigns.
+LONG = ("test_documented.py", "test_memory_forecast.py", "test_design_problems.py")
+
+
+def _takes_long(item: pytest.Item) -> bool:
+    if item.get_closest_marker("slow") is None:
+        return False
+    return CAMPAIGN in getattr(item, "fixturenames", ()) or item.path.name in LONG
 
 
 @pytest.fixture

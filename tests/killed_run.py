@@ -28,6 +28,7 @@ import numpy as np
 import xarray as xr
 
 import viscontact
+from campaigns import tried
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.cli import main
 from viscontact.cli.run import execution
@@ -44,8 +45,8 @@ WATCHED = (
     str(SOURCES / "runs" / "execution" / "run_directory.py"),
 )
 #: Runs that are killed at a line, of each kind; the lines are spread evenly.
-KILLS = 30
-STEP = 6144  # by which the limit grows [bytes]
+KILLS = tried(12, 30)
+STEP = tried(12288, 6144)  # by which the limit grows [bytes]
 #: Entries of the progress that a run adds when it ends.
 AT_THE_END = {*ERRORS, "complete", "fields", DIGEST}
 

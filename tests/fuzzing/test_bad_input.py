@@ -2,7 +2,7 @@
 
 Every family mutates valid input and adds what is none; see the modules beside this one. The
 default run tries 100 inputs in this process, the same ones each time. The slow campaign tries
-3500 more, or 10 500 in three minutes on two idle cores (`campaigns.py`); its seed is
+2100 more, or 10 500 in three minutes on two idle cores (`campaigns.py`); its seed is
 VISCONTACT_FUZZ_SEED, 6 if that is not set. A case that fails is shrunk by Hypothesis, which prints
 it.
 """
@@ -28,7 +28,7 @@ from fuzzing.watch import Tally, set_free_memory
 SEED = int(os.environ.get("VISCONTACT_FUZZ_SEED", "6"))
 
 #: So many inputs in all.
-DEFAULT, SLOW = 100, tried(3500, 10_500)
+DEFAULT, SLOW = 100, tried(2100, 10_500)
 
 # What is thrown away is no matter here, and neither is the size of what is made.
 _ANY_HEALTH = list(HealthCheck)

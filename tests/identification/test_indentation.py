@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.stats import t as student
 
+from campaigns import fewest_held, tried
 from closeness import close_to
 from viscontact import AccuracyWarning, reference
 from viscontact.bodies.materials.material import Material
@@ -175,16 +176,17 @@ def test_the_elastic_interval_is_that_of_linear_regression():
 
 @pytest.mark.slow
 def test_intervals_cover_the_truth_at_their_level():
-    """Of 100 seeded repeats 95 ± 2.2 (binomial); outside 89 to 100 one in 200 times."""
+    """Of seeded repeats 95 in 100, as the binomial distribution has it."""
     truth = {"shear_modulus": 1e6, "viscosity": 2e6}
     record = exact_record(Maxwell(*truth.values()))
     hits = dict.fromkeys(truth, 0)
-    for seed in range(100):
+    count = tried(30, 100)
+    for seed in range(count):
         fit = fit_indentation(scattered(record, 0.01, seed), "maxwell", poisson_ratio=NU)
         for name, value in truth.items():
             low, high = fit.intervals[name]
             hits[name] += low <= value <= high
-    assert all(89 <= count <= 100 for count in hits.values()), hits
+    assert min(hits.values()) >= fewest_held(count), hits
 
 
 def test_a_fit_prints_what_it_found_with_units_and_intervals():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from campaigns import tried
 from closeness import close_to
 from synthetic_isotherms import known_sets
 from viscontact import AccuracyWarning
@@ -141,7 +142,7 @@ def test_factors_of_random_sets_are_within_a_tenth_of_a_decade_or_warned_of():
 @pytest.mark.slow
 def test_factors_of_more_random_sets_are_within_a_tenth_of_a_decade_or_warned_of():
     """Of 45 in 50 that are demanded, with 1 to 3 % of noise, and intervals that hold the truth."""
-    inside, silent, count = [], 0, 100
+    inside, silent, count = [], 0, tried(40, 100)
     for seed in range(1000, 1000 + count):
         known = known_sets(seed)
         curve = known.joined()

@@ -8,6 +8,7 @@ from functools import cache, partial
 import numpy as np
 import pytest
 
+from campaigns import tried
 from closeness import close_to
 from returned import some
 from viscontact.backend.errors import ConvergenceError
@@ -33,6 +34,10 @@ LONG = (
     *("long roller that drives", "work of a cycle"),
     *("cylinder that adheres", "waves that adhere", "punch that adheres", "receding edge"),
 )
+
+#: Those whose finest form takes longest, and the like of which are computed in full: in a whole
+#: campaign only.
+LONGEST = ("cylinder that adheres", "Tabor number 0.5", "Tabor number 0.7")[: tried(3, 0)]
 
 BALL = CASES[0]
 
@@ -77,9 +82,10 @@ def test_case_is_within_its_bounds_with_the_expected_order(case):
     """The fast form, too, of which a long case is computed here only."""
     once = replace(case, compare=cache(case.compare))
     passed(once, fast=True)
+    is_longest = any(part in case.name for part in LONGEST)
     orders = {
         result.quantity: result.order
-        for result in passed(once, fast=False)
+        for result in ([] if is_longest else passed(once, fast=False))
         # There is no order where the error is that of the solver's tolerance.
         if has_smooth_order(case, result.quantity) and not math.isnan(result.order)
     }

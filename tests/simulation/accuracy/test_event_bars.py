@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from campaigns import tried
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import CoarserResult
@@ -62,7 +63,7 @@ def at_equal_times_after_events(name, ds, fine):
 def test_bars_of_programs_cover_95_of_100_errors():
     rng = np.random.default_rng(20)
     inside, events = {name: [] for name in SCALARS}, []
-    for _ in range(12):
+    for _ in range(tried(6, 12)):
         case = drawn(rng)
         ds, fine = ran(case, 33, 300, errors=True), ran(case, 81, 1200, errors=False)
         own, theirs = ds.attrs["event_times"], fine.attrs["event_times"]

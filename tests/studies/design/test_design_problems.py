@@ -9,13 +9,15 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from campaigns import tried
 from closeness import close_to
 from design_problems import PROBLEMS, Problem
 from viscontact.studies.case_values import result_with
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 BY_NAME = {problem.name: problem for problem in PROBLEMS}
-SAMPLE = ("crown, elastic", "two radii", "cover and ball", "rolling ball")
+#: A crown and a straight part are scanned in `test_design.py`.
+SAMPLE = ("cover and ball", "rolling ball", "crown, elastic", "two radii")[: tried(2, 4)]
 
 BALL = """
 indenter: {shape: sphere, radius: 5 mm}

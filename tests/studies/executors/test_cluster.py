@@ -234,8 +234,10 @@ def test_worker_that_is_killed_while_it_starts_is_replaced_or_named(
 
 
 def test_scheduler_that_is_killed_while_its_first_worker_is_awaited_is_named(
-    folder: Path, clusters: list[Cluster]
+    folder: Path, clusters: list[Cluster], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # So long Dask tries to reach the scheduler again; otherwise 30 s.
+    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "4 s")
     clusters.append(cluster := Cluster(folder, 0))
     process = command("-v")
     assert process.stderr is not None

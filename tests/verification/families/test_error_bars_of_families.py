@@ -13,7 +13,7 @@ import pytest
 from campaigns import tried
 from verification.families.drawn import BLUNT, CALIBRATED, GRIPPING, HELD_OUT, LAYERED, drawn
 from verification.families.solved import solve
-from verification.families.tally import report, shortfalls, values_of
+from verification.families.tally import least_within, report, shortfalls, values_of
 
 #: Instants of a run that count; more of them would err alike.
 SAMPLED = 2
@@ -81,7 +81,7 @@ def test_bars_hold_on_blunt_bodies_eccentric_ones_and_after_events(campaign) -> 
 @pytest.mark.slow
 def test_bars_hold_under_friction(campaign) -> None:
     """Nothing was chosen on these families; `docs/accuracy.md` has the figures of more runs."""
-    records = [solve(*each) for each in drawn(2051, 5 * len(GRIPPING), tuple(GRIPPING))]
+    records = [solve(*each) for each in drawn(2051, tried(3, 5) * len(GRIPPING), tuple(GRIPPING))]
     assert not any("refused" in record for record in records)
     for each in report(records):
         campaign(f"friction, {each}")
@@ -95,12 +95,12 @@ def test_bars_hold_under_friction(campaign) -> None:
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # of the finer runs
 def test_bars_hold_on_layers(campaign) -> None:
     """A seed that was not looked at when the limits on thin layers were set."""
-    records = solved(306, 8 * len(LAYERED), LAYERED)
+    records = solved(306, tried(4, 8) * len(LAYERED), LAYERED)
     assert not any("refused" in record for record in records)
     for each in report(records):
         campaign(f"layers, {each}")
     ratios = np.array([value.ratio for value in values_of(records)])
     # Measured: 95.9 % of 194 values, 98.2 % of 1108 of 70 runs.
-    assert np.mean(ratios >= 1) >= 0.93
+    assert np.mean(ratios >= 1) >= (least_within(len(ratios), 0.93) if SAMPLE else 0.93)
     assert np.mean(ratios < 1 / 3) <= 0.01
     assert np.median(ratios) < 8
