@@ -42,6 +42,7 @@ with warnings.catch_warnings():  # a line contact has no approach
         indenter_material=cover,
         rolling=True,
         fields="none",
+        errors=False,
     )
 
 # %%
