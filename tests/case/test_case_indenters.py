@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -185,6 +186,8 @@ def test_schema_offers_profiles_by_name_and_by_section() -> None:
 # -- shapes ------------------------------------------------------------------------------------
 
 SHAPES = {
+    "{shape: cylinder, diameter: 120 mm}": vc.Paraboloid(math.inf, 0.06),
+    "{shape: cylinder, radius: 60 mm, counter_diameter: 60 mm}": vc.Paraboloid(math.inf, 0.02),
     "{shape: ellipsoid, semi_axis_x: 3 mm, semi_axis_y: 2 mm, semi_axis_z: 1 mm}": (
         vc.Ellipsoid(3e-3, 2e-3, 1e-3)
     ),

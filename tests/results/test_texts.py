@@ -105,7 +105,11 @@ def test_key_label_is_the_key_in_words() -> None:
 
 def test_scalars_of_a_place_are_those_that_a_result_has() -> None:
     found = shown_in(Place.LIVE)
-    assert found == ["contact_area", "approach", "peak_pressure", "friction_coefficient"]
+    assert found == [
+        *("contact_area", "strip_width", "approach", "peak_pressure", "friction_coefficient")
+    ]
+    line = {"contact_area", "strip_width", "contact_length", "force_per_length"}
+    assert shown_in(Place.LIVE, line) == ["strip_width"]
     assert shown_in(Place.LIVE, {"approach"}) == ["approach"]
 
 

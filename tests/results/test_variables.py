@@ -24,7 +24,7 @@ from viscontact.drawing.content.history import response_names
 from viscontact.drawing.plotly.panel_over_run import histories
 from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
-from viscontact.mechanics.state import ContactState
+from viscontact.mechanics.state import MOTION, ContactState
 from viscontact.plot import history
 from viscontact.report.drawings import drawn, framed
 from viscontact.report.page import report_page
@@ -84,7 +84,7 @@ def extended(ds: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
 def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> None:
     fields = {field.name for field in dataclasses.fields(ContactState)}
-    assert set(SCALARS) <= fields
+    assert {each.per_length_of or name for name, each in SCALARS.items()} <= fields
     stored = [name for name in ds if ds[name].dims == ("time",) and name not in ("gap", "pressure")]
     assert stored == list(scalars_of())
 
@@ -92,7 +92,7 @@ def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> N
 def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> None:
     rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((24, 24), (2e-3, 2e-3))
     standing = next(vc.march(vc.Sphere(0.01), rubber, vc.step(0.05), grid, [0.0]))
-    names = [name for name, variable in SCALARS.items() if variable.moving]
+    names = [name for name, variable in SCALARS.items() if variable.of == MOTION]
     moving = dataclasses.replace(standing, **dict.fromkeys(names, 0.5))
     path = tmp_path / "result.nc"
     with ResultWriter(
@@ -111,8 +111,9 @@ def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> N
 
 def test_estimated_errors_are_those_of_the_table() -> None:
     promised = [name for name, variable in SCALARS.items() if variable.has_error]
-    # The mean pressure follows from force and area.
-    assert list(ERROR_MODELS) == [name for name in promised if name != "mean_pressure"]
+    # The mean pressure follows from force and area, and what a unit of length has from a period.
+    own = [name for name in promised if not SCALARS[name].per_length_of]
+    assert list(ERROR_MODELS) == [name for name in own if name != "mean_pressure"]
     assert set(ZERO_WITHOUT_CONTACT) <= set(promised)
 
 

@@ -130,6 +130,21 @@ class Grid(Displayable):
         return self.periodic[0] == self.periodic[1]
 
     @property
+    def line_length(self) -> float | None:
+        """Length of the period of a line contact [m]; None for any other grid.
+
+        A line contact has a single cell along its only periodic axis, along which nothing varies.
+        Force, area, work and power of a period are proportional to this length.
+
+        >>> Grid((1, 64), (1e-3, 2e-3), periodic=(True, False)).line_length
+        0.001
+        """
+        if self.has_datum:
+            return None
+        axis = self.periodic.index(True)
+        return self.size[axis] if self.shape[axis] == 1 else None
+
+    @property
     def x(self) -> Floats:
         """Cell centres along x, shape (nx,) [m]."""
         return _centres(self.shape[0], self.size[0], self.centre[0])

@@ -55,6 +55,12 @@ ALIASES: dict[str, tuple[Alias, ...]] = {
     "indenter": (
         Alias("diameter", "radius", "twice the radius, in place of radius", "10 mm"),
         Alias(
+            "counter_diameter",
+            "counter_radius",
+            "diameter of a second roll, in place of counter_radius",
+            "120 mm",
+        ),
+        Alias(
             "straight_length",
             "half_length",
             "length of the straight part, which a circular crown continues, in place of "

@@ -17,7 +17,7 @@ from viscontact.case.adhesion import AdhesionSection
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.friction import FrictionSection
-from viscontact.case.indenters.shapes import Shapes
+from viscontact.case.indenters.shapes import Shapes, combined
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.loads.temperature import AnyTemperature
@@ -29,6 +29,7 @@ from viscontact.case.tangential import AnyTangential
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.case.title_block import TitleBlock
 from viscontact.mechanics.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
+from viscontact.mechanics.problem.surface import creeps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.axis_flags import AxisFlags
@@ -85,6 +86,11 @@ class CaseFile(Section):
                 "load.mean_pressure: it goes with a periodic grid (along both axes), whose area "
                 "makes a force of it; write 'periodic: true' under grid, or give the force"
             )
+        if self.load.is_by_length and self._line_length is None:
+            raise ValueError(
+                "load: a force per length goes with a line contact, of a body without end ('shape: "
+                "cylinder'), or on a grid that is periodic along one axis; give the force"
+            )
         return self
 
     @model_validator(mode="after")
@@ -133,9 +139,23 @@ class CaseFile(Section):
         grips = self.friction is not None
         adheres = self.adhesion is not None
         self.allowable.require_known(moving=not stands, steady=steady, grips=grips, adheres=adheres)
+        self._require_radius_of_turns()
         if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
         return self
+
+    def _require_radius_of_turns(self) -> None:
+        """Refuse two rolls whose material returns after a turn, or whose drive has a torque."""
+        joint = [shape for shape in self.indenter if getattr(shape, "turns_with_another", False)]
+        own = self.indenter_material.body if self.indenter_material else None
+        turns = self.friction is not None or (own is not None and creeps(own))
+        if joint and turns and getattr(self.body_motion, "rolling", None):
+            raise ValueError(
+                "indenter.counter_radius: a roll whose own material creeps, or that is driven by "
+                "friction, turns with its own radius, and two rolls are computed as one on a "
+                "plane; give the covered roll as material and the other one as indenter_material, "
+                "without friction, or leave counter_radius out"
+            )
 
     @property
     def media(self) -> dict[str, Medium]:
@@ -159,11 +179,22 @@ class CaseFile(Section):
             return CellTimes(self.time.end)
         return moving_times(self.body_motion, self.history(), grid.cell_size, self.time.end)
 
+    @property
+    def _line_length(self) -> float | None:
+        """Length on which a line load acts: the only period, that of automatic grids is 1 m."""
+        cells = self.grid.build() if self.grid else None
+        if isinstance(cells, Grid):
+            return None if cells.has_datum else cells.size[cells.periodic.index(True)]
+        along_x, along_y = combined(self.indenter).endless
+        return None if along_x == along_y else 1.0
+
     def history(self) -> LoadHistory:
-        """Return the load; a mean pressure acts on the area of the grid."""
+        """Return the load; a mean pressure acts on the area of the grid, a line load on a line."""
         cells = self.grid.build() if self.grid else None
         if self.load.is_by_pressure and isinstance(cells, Grid):
             return self.load.build(cells.area)
+        if self.load.is_by_length and (length := self._line_length) is not None:
+            return self.load.build(length)
         return self.load.built
 
 

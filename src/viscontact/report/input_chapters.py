@@ -28,7 +28,7 @@ from viscontact.results.run_axis import SPEED, run_axis
 from viscontact.results.run_files import CASE_NAME
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.summary import legend
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import SCALARS, shown_name
 from viscontact.units.formatting import format_quantity
 
 
@@ -80,8 +80,10 @@ def speed_table(ds: xr.Dataset) -> Iterator[Element]:
     """Yield the table of the chief scalars of a result over speed; nothing over time."""
     if run_axis(ds) is not SPEED:
         return
-    names = ["friction_coefficient", f"resistance_{ds.attrs.get('along', 'y')}"]
-    names += [name for name in ("peak_pressure", "contact_area", "approach") if is_shown(ds, name)]
+    resistance = shown_name(f"resistance_{ds.attrs.get('along', 'y')}", ds)
+    names = ["friction_coefficient", resistance]
+    chief = ("peak_pressure", shown_name("contact_area", ds), "approach")
+    names += [name for name in chief if is_shown(ds, name)]
     heads = ["speed", *(SCALARS[name].label.lower() for name in names)]
     rows = [
         [SPEED.place(float(speed)), *(format_scalar(ds, name, row) for name in names)]

@@ -16,7 +16,7 @@ from plotly.graph_objects import Figure
 from viscontact.drawing.content.along_run import along_run
 from viscontact.drawing.content.history import load_names
 from viscontact.drawing.content.map import Maps
-from viscontact.drawing.content.section import Lines, line_load, section
+from viscontact.drawing.content.section import Along, Lines, line_load, section
 from viscontact.drawing.content.usefulness import is_of_use
 from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.panel_over_run import LINEAR, LOGARITHMIC
@@ -71,7 +71,9 @@ def pressure_part(ds: xr.Dataset, maps: Maps | None, figures: list[Figure]) -> I
         return
     yield _map(maps)
     yield element("h3", "Sections through the pressure")
-    lines, unit = [section(maps, "x"), section(maps, "y")], maps.window.unit
+    # Nothing varies along a single cell.
+    axes: list[Along] = [axis for axis in ("x", "y") if ds.sizes[axis] > 1]
+    lines, unit = [section(maps, axis) for axis in axes], maps.window.unit
     sections = (_lines(maps, each, f"{each.title}, {each.place(unit)}") for each in lines)
     yield element("div", *sections, class_="pair")
     if is_of_use(entry_of("line-load"), ds):

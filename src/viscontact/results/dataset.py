@@ -21,8 +21,11 @@ from viscontact.results.variables import (
     error_name,
     field_axis_attributes,
     fields_of,
+    parts_of,
     scalar_attributes,
     scalars_of,
+    value_of,
+    with_errors_per_length,
 )
 
 
@@ -39,14 +42,14 @@ def to_dataset(
     scalars = {
         name: (
             over,
-            np.array([getattr(state, name) for state in states], dtype=variable.kind),
+            np.array([value_of(state, name) for state in states], dtype=variable.kind),
             scalar_attributes(name, errors=errors is not None),
         )
-        for name, variable in scalars_of(states[0].parts, over).items()
+        for name, variable in scalars_of(parts_of(states[0]), over).items()
     }
     scalars |= {
         error_name(name): (over, bars, ERRORS[error_name(name)].attributes)
-        for name, bars in (errors or {}).items()
+        for name, bars in with_errors_per_length(errors or {}, states[0].grid).items()
     }
     grid = states[-1].grid  # the widest: a grid is enlarged only
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))

@@ -89,6 +89,7 @@ def is_prescribed(ds: Result, name: str) -> bool:
     load = case_of(ds).get("load")
     if not load:
         return False
+    name = name.removesuffix("_per_length")
     if name in ("force", "approach") and has_mixed_control(ds):
         return False
     if name in ("force", "approach"):

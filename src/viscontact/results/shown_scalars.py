@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscontact.results.recorded_case import across_period, recorded_grid
-from viscontact.results.variables import OF_LEAKAGE, OF_LEAKAGE_Y, SCALARS, Place, shown_in
+from viscontact.results.variables import (
+    OF_LEAKAGE,
+    OF_LEAKAGE_Y,
+    SCALARS,
+    Place,
+    is_of_period,
+    per_length,
+    shown_in,
+)
 
 if TYPE_CHECKING:
     from viscontact.results.stored_result import Result
@@ -18,7 +26,7 @@ LONG = 3.0
 #: Scalars that are shown of such contacts only.
 OF_LONG_CONTACTS = ("peak_line_load",)
 
-#: Scalars without a value where the approach has no datum.
+#: Scalars that may have no value where the approach has no datum.
 WITH_DATUM = ("approach", "work", "loss_per_cycle", "dissipation", "heat")
 
 
@@ -34,13 +42,18 @@ def is_long(ds: Result) -> bool:
 
 def is_shown(ds: Result, name: str) -> bool:
     """Test for a scalar that a result has and that is of use for it."""
-    if name not in ds or (name in WITH_DATUM and lacks_datum(ds)):
+    if name not in ds or is_of_period(name, ds):
         return False
-    if (
-        name in (*OF_LEAKAGE, *OF_LEAKAGE_Y) and np.isnan(ds[name].values).all()
-    ):  # no fluid that is driven
+    # Without a datum work has no value, and without a fluid that is driven a leak rate.
+    perhaps = (*WITH_DATUM, *map(per_length, WITH_DATUM), *OF_LEAKAGE, *OF_LEAKAGE_Y)
+    if name in perhaps and (values := ds[name].values).size and np.isnan(values).all():
         return False
     return name not in OF_LONG_CONTACTS or is_long(ds)
+
+
+def is_line(ds: Result) -> bool:
+    """Test for a line contact of one cell along its period, which is shown per unit length."""
+    return per_length("force") in ds
 
 
 def lacks_datum(ds: Result) -> bool:

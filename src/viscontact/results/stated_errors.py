@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import is_shown
-from viscontact.results.variables import error_name
+from viscontact.results.variables import SCALARS, error_name
 
 if TYPE_CHECKING:
     from viscontact.results.stored_result import Result
@@ -98,6 +98,8 @@ def is_rounding(ds: Result, name: str) -> bool:
     # Tilts and eccentricities under a centred load are, and the resistance across the motion.
     if is_centred(ds, name):
         return True
+    if name in SCALARS and SCALARS[name].per_length_of in ds:
+        return is_rounding(ds, SCALARS[name].per_length_of)
     largest = _maximum(ds[name].values)
     return largest == 0.0 or largest <= _rounding_of_motion(ds, name)
 

@@ -17,14 +17,14 @@ from viscontact.results.formatting import (
 )
 from viscontact.results.last_cycle_values import last_cycle, notable_largest
 from viscontact.results.run_axis import SPEED, RunAxis, run_axis
-from viscontact.results.shown_scalars import is_shown, lacks_datum
+from viscontact.results.shown_scalars import is_line, is_shown, lacks_datum
 from viscontact.results.stated_errors import (
     LargestError,
     errors_of,
     is_rounding,
     largest_error,
 )
-from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error
+from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error, shown_name
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ def _cycle(ds: Result) -> str:
     if cycle is None:
         return ""
     begin, end = (format_quantity(time, "s") for time in (cycle.begin, cycle.end))
-    names = ["force", "peak_pressure", *(() if lacks_datum(ds) else ("approach",))]
+    names = [shown_name("force", ds), "peak_pressure", *(() if lacks_datum(ds) else ("approach",))]
     ranges = [f"the {name.replace('_', ' ')} {cycle.range_of(ds, name)}" for name in names]
     text = f"In the last cycle, t = {begin} to {end}: {', '.join(ranges)}"
     if "loss_per_cycle" in ds and np.isfinite(ds["loss_per_cycle"].values[cycle.last]):
@@ -178,11 +178,10 @@ def _cycle(ds: Result) -> str:
 
 
 def _contact(ds: Result, index: int) -> str:
-    force, area, approach, peak = (
-        format_scalar(ds, name, index)
-        for name in ("force", "contact_area", "approach", "peak_pressure")
-    )
-    text = f"the contact covers {area} under {force}; "
+    names = (shown_name("force", ds), shown_name("contact_area", ds), "approach", "peak_pressure")
+    force, area, approach, peak = (format_scalar(ds, name, index) for name in names)
+    extent = f"is {area} wide" if is_line(ds) else f"covers {area}"
+    text = f"the contact {extent} under {force}; "
     if lacks_datum(ds):
         return text + f"the peak pressure is {peak}"
     return text + f"the approach is {approach} and the peak pressure {peak}"

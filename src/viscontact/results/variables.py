@@ -8,13 +8,15 @@ dataset, the netCDF and CSV files, the tables, cards, pages and figures read the
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Hashable
+from collections.abc import Container, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import Flag, auto
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.arrays import Floats
+from viscontact.bodies.grid import Grid
 from viscontact.mechanics.state import (
     ADHESION,
     FRICTION,
@@ -23,6 +25,7 @@ from viscontact.mechanics.state import (
     MOTION,
     ROLLING,
     STAGE,
+    ContactState,
     Outcome,
 )
 
@@ -59,7 +62,8 @@ class Variable:
     label: str = ""  # on axes and pages
     has_error: bool = False  # estimated and stored with it
     places: Place = Place.NOWHERE
-    rank: int = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
+    rank: float = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
+    per_length_of: str = ""  # scalar of a period, of which it is the part on a unit of length
     of: str = ""  # part that only some results have, as in `ContactState.parts`
     flags: tuple[str, ...] = ()  # meanings of the values 0, 1, ... of an enumeration
     beyond: float = math.nan  # value of a field where a grid that was enlarged had no cells yet
@@ -67,7 +71,7 @@ class Variable:
     @property
     def moving(self) -> bool:
         """True if only results of moving contacts have it."""
-        return self.of == MOTION
+        return self.of in (MOTION, along_line(MOTION))
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -199,6 +203,47 @@ def _sticking(
 ) -> Variable:
     """A scalar of a contact of bodies that adhere."""
     return _scalar(units, long_name, label, rank, places, of=ADHESION)
+
+
+def along_line(part: str = "") -> str:
+    """Part of the scalars per unit length of a line contact, with those of another part."""
+    return f"line {part}".rstrip()
+
+
+#: Units of a period, and those of a unit of its length.
+_PER_LENGTH = {"N": "N/m", "m2": "m", "J": "J/m", "W": "W/m", "N m": "N m/m"}
+#: Scalars of a period that a line contact has per unit length.
+_OF_A_PERIOD = (
+    *("force", "work", "loss_per_cycle", "resistance_x", "resistance_y"),
+    *("motion_work", "dissipation", "heat", "tangential_force_x", "tangential_force_y"),
+    *("stick_area", "friction_heat", "friction_power", "drive_torque"),
+    *("contact_area", "tensile_area", "adhesion_energy"),
+)
+
+
+#: Those of them at the head of the report and of the page, in place of the peak line load.
+_AT_HEAD = ("force", "dissipation")
+#: Extents of a contact, and the largest line load, which a line contact has everywhere.
+_OF_ENDS = ("contact_length", "contact_width", "peak_line_load")
+
+
+def per_length(name: str) -> str:
+    """Name of a scalar per unit length of a line contact."""
+    return "strip_width" if name == "contact_area" else f"{name}_per_length"
+
+
+def _per_unit_length(name: str, variable: Variable) -> Variable:
+    """The scalar per unit length of a line contact, shown where that of a period is otherwise."""
+    return replace(
+        variable,
+        units=_PER_LENGTH[variable.units],
+        places=variable.places | (Place.FACTS if name in _AT_HEAD else Place.NOWHERE),
+        long_name=f"{variable.long_name}, per unit length of a line contact",
+        label="Width of the strip" if name == "contact_area" else f"{variable.label} per length",
+        rank=variable.rank + 0.5,
+        of=along_line(variable.of),
+        per_length_of=name,
+    )
 
 
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
@@ -397,6 +442,14 @@ SCALARS = {
         flags=tuple(outcome.name.lower() for outcome in Outcome),
     ),
 }
+SCALARS = {
+    each: variable
+    for name, found in SCALARS.items()
+    for each, variable in (
+        (name, found),
+        *(((per_length(name), _per_unit_length(name, found)),) if name in _OF_A_PERIOD else ()),
+    )
+}
 
 
 #: Scalars of the flow through the gap, of runs whose case names a fluid.
@@ -409,6 +462,7 @@ OF_LEAKAGE_Y = tuple(f"{name}_y" for name in OF_LEAKAGE)
 NOT_STEADY = (
     *("work", "loss_per_cycle", "motion_work", "heat", "time_error", "position_x", "position_y"),
     *("reduced_time", "reduced_time_indenter"),
+    *map(per_length, ("work", "loss_per_cycle", "motion_work", "heat")),
 )
 
 
@@ -419,6 +473,38 @@ def scalars_of(parts: Container[str] = (), over: str = "time") -> dict[str, Vari
         name: each
         for name, each in SCALARS.items()
         if name not in left_out and (not each.of or each.of in parts)
+    }
+
+
+def value_of(state: ContactState, name: str) -> float:
+    """Scalar of a state."""
+    period, length = SCALARS[name].per_length_of, state.grid.line_length
+    if period and length:
+        return float(getattr(state, period)) / length
+    return float(getattr(state, name))
+
+
+def parts_on(grid: Grid, parts: Iterable[str]) -> frozenset[str]:
+    """Parts of the scalars of contacts on a grid: of a line contact also those per unit length."""
+    found = frozenset(parts)
+    if grid.line_length is None:
+        return found
+    return found | {along_line(each) for each in ("", *found)}
+
+
+def parts_of(state: ContactState) -> frozenset[str]:
+    """Parts of the scalars of a state, as a result has them."""
+    return parts_on(state.grid, state.parts)
+
+
+def with_errors_per_length(errors: Mapping[str, Floats], grid: Grid) -> dict[str, Floats]:
+    """Errors of scalars, of a line contact also of those per unit length, which follow."""
+    length, found = grid.line_length, dict(errors)
+    if length is None:
+        return found
+    known = {name: each.per_length_of for name, each in SCALARS.items()}
+    return found | {
+        name: errors[period] / length for name, period in known.items() if period in errors
     }
 
 
@@ -441,9 +527,22 @@ REQUIRED = (
 )
 
 
+def is_of_period(name: str, stored: Container[Hashable]) -> bool:
+    """Test for a scalar of a period of a line contact, which is shown per unit length."""
+    if name in _OF_ENDS:
+        return per_length("force") in stored
+    return name in _OF_A_PERIOD and per_length(name) in stored
+
+
+def shown_name(name: str, stored: Container[Hashable]) -> str:
+    """Name under which a result shows a scalar: that per unit length in a line contact."""
+    return per_length(name) if is_of_period(name, stored) else name
+
+
 def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[str]:
     """Names of the scalars shown in a place, in its order; of those of a result, if given."""
     names = [name for name, variable in SCALARS.items() if place & variable.places]
+    names = [name for name in names if stored is None or not is_of_period(name, stored)]
     in_table = place in Place.TABLE | Place.KEY
     names = names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
     return [name for name in names if stored is None or name in stored]
@@ -455,7 +554,8 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
 
 
 #: Parts of all results whose scalars have errors.
-ALL_PARTS = (MOTION, FRICTION, ROLLING, ADHESION)
+_PARTS = (MOTION, FRICTION, ROLLING, ADHESION)
+ALL_PARTS = (*_PARTS, *map(along_line, ("", *_PARTS)))
 
 
 def scalars_with_error(parts: Container[str] = ALL_PARTS, over: str = "time") -> list[str]:

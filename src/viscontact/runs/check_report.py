@@ -52,13 +52,23 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     growing = "; more if the grid has to grow" if run.grows else ""
     period = _period(run.grid)
     free = f"of {_bytes(expected.available)} free"
-    return [
+    cells = [
         (
             "grid",
             f"{nx} x {ny} cells on {format_quantity(lx, 'm')} x "
             f"{format_quantity(ly, 'm')}{_place_text(run.grid)}{chosen}{period}",
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
+    ]
+    if run.grid.line_length is not None:
+        width, cell = max((lx, dx), (ly, dy), key=lambda each: each[0] / each[1])
+        row = f"{nx * ny} cells across {format_quantity(width, 'm')}{_place_text(run.grid)}"
+        cells = [
+            ("grid", f"{row}{chosen}, line along {'xy'[run.grid.periodic.index(True)]}"),
+            ("cell", f"{format_quantity(cell, 'm', 3)} wide"),
+        ]
+    return [
+        *cells,
         *run.course(),
         *_events(run.contact.load),
         ("fields kept", _fields_text(run)),
@@ -122,14 +132,22 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     ]
     return title, [
         ("estimate for", f"largest {control}, {expected.compliance}"),
-        (
-            "contact",
-            f"{format_quantity(found.length, 'm', 3)} long, {format_quantity(found.width, 'm', 3)} "
-            "wide",
-        ),
-        ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
+        *_expected_extent(expected, found),
         ("peak pressure", _peak_pressure(expected, found)),
         *(follows if found.grid.has_datum else []),
+    ]
+
+
+def _expected_extent(expected: Forecast, found: ContactEstimate) -> list[tuple[str, str]]:
+    """Rows of the extents of the expected contact and the cells in it; of a line, across it."""
+    extents = [format_quantity(each, "m", 3) for each in (found.length, found.width)]
+    cells = [f"{each:.0f}" for each in (expected.cells_along, expected.cells_across)]
+    if found.grid.line_length is not None:
+        axis = 1 - found.grid.periodic.index(True)
+        return [("contact", f"{extents[axis]} wide"), ("cells in it", f"{cells[axis]} across")]
+    return [
+        ("contact", "{} long, {} wide".format(*extents)),
+        ("cells in it", "{} along, {} across".format(*cells)),
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import operator
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -19,6 +20,22 @@ from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.profiles import AnyProfile
 from viscontact.case.quantities import Length, LengthOrInfinite, OpenAngle
 from viscontact.case.section_choice import ChosenBy
+
+#: Radius of the body on the other side.
+CounterRadius = Length | None
+OF_COUNTER_BODY = (
+    "radius of a second roll, parallel to the first, in place of a plane: the gap between them is "
+    "that of one roll of the radius 1/(1/radius + 1/counter_radius)"
+)
+
+
+def joint_radius(radius: float, counter_radius: float | None) -> float:
+    """Radius of the roll on a plane with the gap of two parallel rolls [m].
+
+    >>> joint_radius(0.06, 0.06)
+    0.03
+    """
+    return radius if counter_radius is None else 1 / (1 / radius + 1 / counter_radius)
 
 
 class Sphere(Shape):
@@ -47,6 +64,23 @@ class Paraboloid(Shape):
     def build(self) -> indenters.Paraboloid:
         """Return the paraboloid."""
         return indenters.Paraboloid(self.radius_x, self.radius_y)
+
+
+class Cylinder(Shape):
+    """A cylinder without end along x, alone on a plane or against a second one: a line contact."""
+
+    shape: Literal["cylinder"]
+    radius: Length = Field(description="of the cylinder")
+    counter_radius: CounterRadius = Field(default=None, description=OF_COUNTER_BODY)
+
+    @property
+    def turns_with_another(self) -> bool:
+        """True if its radius is not that of the body that turns."""
+        return self.counter_radius is not None
+
+    def build(self) -> indenters.Paraboloid:
+        """Return the parabolic cylinder of the gap between both bodies."""
+        return indenters.Paraboloid(math.inf, joint_radius(self.radius, self.counter_radius))
 
 
 class Cone(Shape):
@@ -80,6 +114,7 @@ class Roller(Shape):
 
     shape: Literal["roller"]
     radius: Length = Field(description="largest radius of the roller")
+    counter_radius: CounterRadius = Field(default=None, description=OF_COUNTER_BODY)
     half_length: Length = Field(
         description="half the length: of the straight part where a circular crown continues it, "
         "of the whole otherwise"
@@ -101,19 +136,26 @@ class Roller(Shape):
         found = {} if self.profile is None else self.profile.files
         return {("profile", *key): path for key, path in found.items()}
 
+    @property
+    def turns_with_another(self) -> bool:
+        """True if its radius is not that of the body that turns."""
+        return self.counter_radius is not None
+
     def build(self) -> indenters.Roller:
         """Return the roller."""
+        radius = joint_radius(self.radius, self.counter_radius)
         others: dict[str, Any] = {"cross_section": self.cross_section}
         if self.crown_radius is not None:
             others["crown_radius"] = self.crown_radius
         if self.profile is None:
-            return indenters.Roller(self.radius, self.half_length, **others)
-        return self.profile.roller(self.radius, self.half_length, others)
+            return indenters.Roller(radius, self.half_length, **others)
+        return self.profile.roller(radius, self.half_length, others)
 
 
 AnyShape = Annotated[
     Sphere
     | Paraboloid
+    | Cylinder
     | more_shapes.Ellipsoid
     | Cone
     | FlatPunch

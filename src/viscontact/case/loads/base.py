@@ -14,6 +14,7 @@ from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.levels import APPROACH_EXAMPLE, Tilt
 from viscontact.case.quantities import (
     AnyForce,
+    LineLoad,
     Offset,
     Pressure,
     Section,
@@ -44,12 +45,12 @@ class Load(Section):
     )
 
     @abstractmethod
-    def build(self, area: float = 1.0) -> LoadHistory:
-        """Return the history; a mean pressure acts on the given area [m²]."""
+    def build(self, extent: float = 1.0) -> LoadHistory:
+        """Return the history; a mean pressure acts on an area [m²], a line load on a length [m]."""
 
     @cached_property
     def built(self) -> LoadHistory:
-        """The history, built once: its file is read once. A mean pressure acts on 1 m²."""
+        """The history, built once, as is its file; levels per area or length act on 1 m² or 1 m."""
         return self.build()
 
     @property
@@ -61,6 +62,11 @@ class Load(Section):
     def is_by_pressure(self) -> bool:
         """True if a mean pressure is prescribed, which needs an area."""
         return getattr(self, "mean_pressure", None) is not None
+
+    @property
+    def is_by_length(self) -> bool:
+        """True if a line load is prescribed, which needs a length."""
+        return getattr(self, "line_load", None) is not None
 
     def refuse_pull(self) -> None:
         """Raise ValueError, with the key, for a force that pulls, which needs adhesion."""
@@ -105,13 +111,20 @@ class Controlled(Load):
         examples=[PRESSURE_EXAMPLE],
     )
 
-    def _height(self, area: float) -> dict[Control, float]:
-        if self.mean_pressure is None:
+    line_load: LineLoad | None = Field(
+        default=None,
+        description="of a line contact, in place of the force: force per unit length",
+    )
+
+    def _height(self, extent: float) -> dict[Control, float]:
+        per_extent = {"mean_pressure": self.mean_pressure, "line_load": self.line_load}
+        given = [name for name, level in per_extent.items() if level is not None]
+        if not given:
             return force_or_approach(self.approach, "force", self.force)
-        for name in ("force", "approach"):
+        for name in (*given[1:], "force", "approach"):
             if getattr(self, name) is not None:
-                raise ValueError(f"mean_pressure and {name} exclude each other; give one of them")
-        return {"force": self.mean_pressure * area}
+                raise ValueError(f"{given[0]} and {name} exclude each other; give one of them")
+        return {"force": (per_extent[given[0]] or 0.0) * extent}
 
 
 def force_or_approach(approach: float | None, name: str, value: float | None) -> dict[Any, float]:

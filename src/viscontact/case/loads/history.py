@@ -16,7 +16,13 @@ from viscontact.case.data_file import DataFile, at_key
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
 from viscontact.case.loads.course import SentenceError
-from viscontact.case.loads.levels import ForceOrApproach, Level
+from viscontact.case.loads.levels import (
+    BY_LENGTH,
+    IN_WORDS,
+    ForceOrApproach,
+    Level,
+    Prescribed,
+)
 from viscontact.case.loads.sentence_history import LoadPoints, course_of
 from viscontact.case.loads.sentences import Sentences
 from viscontact.case.ordered_times import refuse_decrease
@@ -62,7 +68,7 @@ class History(Load):
         """File of the history, if there is one."""
         return None if self.file is None else Path(self.file)
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the history, from its points, its file or its sentences."""
         given = [self.points, self.mean_pressure, self.file, self.sentences]
         if given.count(None) != len(given) - 1:
@@ -75,17 +81,24 @@ class History(Load):
         if self.columns is not None:
             raise ValueError("columns: goes with file; leave it out")
         if self.mean_pressure is not None:
-            return self._from_pressures(area)
+            return self._from_pressures(extent)
         if self.sentences is not None:
-            return self._from_sentences()
-        return self._from_points()
+            return self._from_sentences(extent)
+        return self._from_points(extent)
 
-    def _from_points(self) -> LoadHistory:
+    @property
+    def is_by_length(self) -> bool:
+        """True if line loads are prescribed, which need a length."""
+        if self.sentences is not None:
+            return self._course(may_pull=True).control == BY_LENGTH
+        return any(level.control == BY_LENGTH for _, level in self.points or ())
+
+    def _from_points(self, length: float) -> LoadHistory:
         if not self.points:
             raise ValueError("points is empty; write e.g. '[[0 s, 0 N], [1 s, 10 kN]]'")
         times, levels = zip(*self.points, strict=True)
-        control = _common_control(levels)
-        return _history(control, times, [level.value for level in levels], self._tail)
+        values = [level.value for level in levels]
+        return _prescribed(_common_control(levels), times, values, length, self._tail)
 
     def _from_pressures(self, area: float) -> LoadHistory:
         if not self.mean_pressure:
@@ -108,8 +121,8 @@ class History(Load):
         else:
             super().refuse_pull()
 
-    def _from_sentences(self) -> LoadHistory:
-        return _history(*self._course(may_pull=True), self._tail)
+    def _from_sentences(self, length: float) -> LoadHistory:
+        return _prescribed(*self._course(may_pull=True), length, self._tail)
 
     def _course(self, *, may_pull: bool) -> LoadPoints:
         sentences = [sentence for entry in self.sentences or () for sentence in entry]
@@ -132,15 +145,27 @@ class History(Load):
         return _history(control, times, levels, {**self._tail, **columns})
 
 
-def _common_control(levels: Sequence[Level]) -> Control:
+def _common_control(levels: Sequence[Level]) -> Prescribed:
     for place, level in enumerate(levels, start=1):
         if level.control != levels[0].control:
-            words = {"force": "a force", "approach": "a length"}
             raise ValueError(
-                f"points[{place}]: it is {words[level.control]}, {words[levels[0].control]} "
+                f"points[{place}]: it is {IN_WORDS[level.control]}, {IN_WORDS[levels[0].control]} "
                 "in the first point; either the force or the approach is prescribed, throughout"
             )
     return levels[0].control
+
+
+def _prescribed(
+    control: Prescribed,
+    times: Sequence[float],
+    levels: Sequence[float],
+    length: float,
+    tail: dict[str, Any],
+) -> LoadHistory:
+    """History of levels; line loads act on a length [m]."""
+    if control == BY_LENGTH:
+        return _history("force", times, [each * length for each in levels], tail)
+    return _history(control, times, levels, tail)
 
 
 def _history(

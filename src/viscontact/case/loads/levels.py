@@ -1,9 +1,9 @@
-"""Levels of a load: a force or an approach, distinguished by the unit."""
+"""Levels of a load: a force, an approach or a line load, distinguished by the unit."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -16,18 +16,35 @@ from viscontact.units.dimensions import DIMENSIONS
 #: Example of an approach; that of a length would be too large.
 APPROACH_EXAMPLE = "0.1 mm"
 
-_DIMENSIONS: dict[str, Control] = {"force": "force", "length": "approach"}
+#: Control of a load whose levels are forces per length of a line contact.
+BY_LENGTH: Literal["line load"] = "line load"
+
+#: What the levels of a history prescribe.
+Prescribed = Control | Literal["line load"]
+
+_DIMENSIONS: dict[str, Prescribed] = {
+    "force": "force",
+    "length": "approach",
+    "line load": BY_LENGTH,
+}
+
+#: The level in sentences, by what it prescribes.
+IN_WORDS: dict[Prescribed, str] = {
+    "force": "a force",
+    "approach": "a length",
+    BY_LENGTH: "a force per length",
+}
 
 
 class Level(NamedTuple):
-    """A force [N] or an approach [m], and which of the two it is."""
+    """A force [N], an approach [m] or a line load [N/m], and which of them it is."""
 
     value: float
-    control: Control
+    control: Prescribed
 
 
 def read_level(given: Any) -> Level:
-    """Read a force or a length with its unit."""
+    """Read a force, a length or a line load with its unit."""
     why = ""
     for dimension, control in _DIMENSIONS.items():
         try:
@@ -54,7 +71,8 @@ class _LevelQuantity:
     ) -> JsonSchemaValue:
         return {
             "type": "string",
-            "description": "a force, or for approach control a length, with its unit",
+            "description": "a force, for approach control a length, or for a line contact a force "
+            "per length, with its unit",
             "examples": [DIMENSIONS["force"].example, APPROACH_EXAMPLE],
             "x-dimension": list(_DIMENSIONS),
         }

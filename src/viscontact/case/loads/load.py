@@ -37,9 +37,9 @@ class Step(Controlled):
 
     kind: Literal["step"]
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the step."""
-        return loads.step(**self._height(area), **self._tail)
+        return loads.step(**self._height(extent), **self._tail)
 
 
 class Ramp(Controlled):
@@ -48,9 +48,9 @@ class Ramp(Controlled):
     kind: Literal["ramp"]
     duration: Duration = Field(description="duration of the rise; then the level is held")
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the ramp."""
-        return loads.ramp(**self._height(area), duration=self.duration, **self._tail)
+        return loads.ramp(**self._height(extent), duration=self.duration, **self._tail)
 
 
 class Triangle(Controlled):
@@ -62,9 +62,9 @@ class Triangle(Controlled):
         default=None, description="duration of the fall; that of the rise when left out"
     )
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the triangle."""
-        return loads.triangle(**self._height(area), rise=self.rise, fall=self.fall, **self._tail)
+        return loads.triangle(**self._height(extent), rise=self.rise, fall=self.fall, **self._tail)
 
 
 class Harmonic(Load):
@@ -87,7 +87,7 @@ class Harmonic(Load):
         """Key of the force that pulls: what the amplitude takes off the mean."""
         return "mean"
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the harmonic load."""
         middle = force_or_approach(self.approach, "mean", self.mean)
         control: Control = "approach" if "approach" in middle else "force"
@@ -113,7 +113,7 @@ class Program(Load):
     kind: Literal["program"]
     sentences: Annotated[str | list[str], WithJsonSchema(_SCHEMA)]
 
-    def build(self, area: float = 1.0) -> LoadHistory:
+    def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the history of the program, which awaits its events."""
         tail: dict[str, Any] = self._tail
         return as_history(LoadProgram(self._readable_sentences(), **tail))

@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from viscontact.bodies.loads.harmonic_history import STEPS_PER_CYCLE
-from viscontact.bodies.loads.history import Control
 from viscontact.case.loads.course import (
     MOST_POINTS,
     SentenceError,
@@ -18,16 +17,16 @@ from viscontact.case.loads.course import (
     refuse,
 )
 from viscontact.case.loads.grammar import START, Rate, Reading
-from viscontact.case.loads.levels import Level
+from viscontact.case.loads.levels import IN_WORDS, Level, Prescribed
 from viscontact.case.loads.sentences import EXAMPLE, TEMPERATURE_EXAMPLE, Sentence
 from viscontact.units.formatting import format_quantity
 from viscontact.units.temperatures import in_celsius
 
 
 class LoadPoints(NamedTuple):
-    """Load history by points: prescribed quantity, times [s] and levels [N or m]."""
+    """Load history by points: prescribed quantity, times [s] and levels [N, m or N/m]."""
 
-    control: Control
+    control: Prescribed
     times: list[float]
     levels: list[float]
 
@@ -62,19 +61,19 @@ def temperatures_of(
     return way.points
 
 
-def _control(sentences: Sequence[Sentence]) -> Control:
-    """True if the sentences prescribe forces or lengths; both are refused."""
-    found: Control | None = None
+def _control(sentences: Sequence[Sentence]) -> Prescribed:
+    """Return what the sentences prescribe, throughout."""
+    found: Prescribed | None = None
     for sentence in sentences:
         for given in sentence.reading.slots:
             slot = given.change if isinstance(given, Rate) else given
             if not isinstance(slot, Level):
                 continue
             if found is not None and slot.control != found:
-                words = {"force": "a force", "approach": "a length"}
                 raise SentenceError(
                     sentence,
-                    f"gives {words[slot.control]} where sentences before give {words[found]}; "
+                    f"gives {IN_WORDS[slot.control]} where sentences before give "
+                    f"{IN_WORDS[found]}; "
                     "either the force or the approach is prescribed, throughout",
                 )
             found = slot.control
@@ -84,11 +83,11 @@ def _control(sentences: Sequence[Sentence]) -> Control:
 
 
 class _LoadWay(Way):
-    """Points of a force or of an approach."""
+    """Points of a force, of an approach or of a line load."""
 
-    def __init__(self, control: Control, *, may_pull: bool) -> None:
+    def __init__(self, control: Prescribed, *, may_pull: bool) -> None:
         super().__init__()
-        self.control: Control = control
+        self.control: Prescribed = control
         self._may_pull = may_pull
 
     def follow(self, sentence: Sentence, move: Reading) -> None:
@@ -113,8 +112,8 @@ class _LoadWay(Way):
                 self.add_ramp(sentence, middle + swing * sine, part)
 
     def _refuse_pull(self, sentence: Sentence, level: Fraction) -> None:
-        if self.control == "force" and level < 0 and not self._may_pull:
-            lowest = format_quantity(float(level), "N")
+        if self.control != "approach" and level < 0 and not self._may_pull:
+            lowest = format_quantity(float(level), "N" if self.control == "force" else "N/m")
             refuse(
                 sentence,
                 f"the force would fall to {lowest}: a negative force pulls, which needs adhesion; "

@@ -22,7 +22,7 @@ from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.stored_result import StoredResult
-from viscontact.results.variables import AXES, SCALARS, Place, shown_in
+from viscontact.results.variables import AXES, SCALARS, Place, shown_in, shown_name
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
@@ -69,7 +69,7 @@ def _shown_scalars(ds: StoredResult) -> list[str]:
     shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
     if run_axis(ds).is_history:
         return shown
-    left_out = () if prescribes_approach(ds) else ("force",)
+    left_out = () if prescribes_approach(ds) else (shown_name("force", ds),)
     friction = () if is_rounding(ds, _FRICTION) else (_FRICTION,)
     return [*friction, *(name for name in shown if name not in left_out)]
 
@@ -77,12 +77,15 @@ def _shown_scalars(ds: StoredResult) -> list[str]:
 def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Lines about the loss per cycle and about errors."""
     if not run_axis(ds).is_history and not prescribes_approach(ds):
-        yield f"force: {format_quantity(float(ds['force'][0]), 'N')} at each speed"
-    losses = ds["loss_per_cycle"].values if "loss_per_cycle" in ds else np.empty(0)
+        force = shown_name("force", ds)
+        level = format_quantity(float(ds[force][0]), SCALARS[force].units)
+        yield f"{force.replace('_', ' ')}: {level} at each speed"
+    loss = shown_name("loss_per_cycle", ds)
+    losses = ds[loss].values if loss in ds else np.empty(0)
     # The loss of a cycle is repeated until the next cycle is complete.
     known = losses[np.isfinite(losses)]
     if known.size:
-        first, last = (format_quantity(float(loss), "J") for loss in known[[0, -1]])
+        first, last = (format_quantity(float(each), SCALARS[loss].units) for each in known[[0, -1]])
         several = f"{first} in the first cycle, {last} in the last"
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
     if knows_errors(ds, shown):

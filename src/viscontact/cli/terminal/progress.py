@@ -104,8 +104,9 @@ class _PlainLines:
 
 
 def _details(state: ContactState) -> str:
-    area = state.contact_area
-    contact = f"contact {format_quantity(area, 'm2')}" if area else "no contact"
+    area, length = state.contact_area, state.grid.line_length
+    extent = format_quantity(area / length, "m") if length else format_quantity(area, "m2")
+    contact = f"contact {extent}{' wide' if length else ''}" if area else "no contact"
     place = (
         f"t = {format_quantity(state.time, 's')}"
         if state.speed is None

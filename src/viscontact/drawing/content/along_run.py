@@ -14,7 +14,7 @@ from viscontact.drawing.content.panel import Axis, Units
 from viscontact.results.run_axis import require_time, run_axis
 from viscontact.results.shown_scalars import is_shown
 from viscontact.results.stated_errors import errors_of
-from viscontact.results.variables import SCALARS, error_name
+from viscontact.results.variables import SCALARS, error_name, shown_name
 from viscontact.units.formatting import format_quantity, readable_unit
 from viscontact.units.numbers import finite_array
 from viscontact.units.temperatures import CELSIUS
@@ -106,7 +106,7 @@ def _held_from(run: xr.Dataset) -> bool:
     """True if the prescribed force or approach is held over most of the time."""
     times = run["time"].values
     held_from = []
-    for name in ("force", "approach"):
+    for name in (shown_name("force", run), "approach"):
         if not is_shown(run, name):
             continue
         values = run[name].values

@@ -38,7 +38,16 @@ from viscontact.results.stated_errors import (
     lacks_curve,
     mesh_dependent,
 )
-from viscontact.results.variables import MESH_DEPENDENT, SCALARS, Place, shown_in
+from viscontact.results.variables import (
+    MESH_DEPENDENT,
+    SCALARS,
+    Place,
+    along_line,
+    is_of_period,
+    per_length,
+    shown_in,
+    shown_name,
+)
 from viscontact.units.formatting import readable_unit
 from viscontact.units.temperatures import CELSIUS
 
@@ -56,7 +65,11 @@ _MARGIN, _ABOVE = 0.05, 1.15
 def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
     """Names of the scalars of a printed figure, which all runs have: without a constant load."""
     each = list(runs.values())
-    common = [name for name in shown_in(Place.FIGURE) if all(name in run for run in each)]
+    common = [
+        name
+        for name in shown_in(Place.FIGURE)
+        if all(name in run for run in each) and not all(is_of_period(name, run) for run in each)
+    ]
     return [name for name in common if _is_worth_a_panel(name, each)]
 
 
@@ -70,9 +83,10 @@ def load_names(run: xr.Dataset) -> list[str]:
     """Names of the scalars that are prescribed, for a page; none over a single speed."""
     if _has_one_speed(run):
         return []
-    names = [name for name in shown_in(Place.LOAD, run) if name == "force" or _varies(run, name)]
+    force = shown_name("force", run)
+    names = [name for name in shown_in(Place.LOAD, run) if name == force or _varies(run, name)]
     if not run_axis(run).is_history:
-        names = ["force"]  # a constant load
+        names = []  # a constant load
     if not prescribes_approach(run):
         return names
     return ["approach", *(name for name in names if SCALARS[name].moving)]
@@ -83,7 +97,7 @@ def response_names(run: xr.Dataset) -> list[str]:
     # A table has the values at a single speed, and friction over speed is a figure of its own.
     if _has_one_speed(run):
         return []
-    answer = {"approach": "force"} if prescribes_approach(run) else {}
+    answer = {"approach": shown_name("force", run)} if prescribes_approach(run) else {}
     own = ["friction_coefficient"] if has_friction(run) else []
     shown = [name for name in shown_scalars(run, Place.RESPONSE) if name not in own]
     if not run_axis(run).is_history:
@@ -97,12 +111,18 @@ def _has_one_speed(run: xr.Dataset) -> bool:
 
 def is_idle(run: xr.Dataset, name: str) -> bool:
     """Test for rounding under a centred load, on an elastic body, or across motion or load."""
-    of_part = SCALARS[name].moving or SCALARS[name].of == FRICTION
+    of_part = (
+        SCALARS[name].moving
+        or along_line(FRICTION) == SCALARS[name].of
+        or SCALARS[name].of == FRICTION
+    )
     return is_rounding(run, name) if of_part else is_centred(run, name)
 
 
 def _is_worth_a_panel(name: str, runs: list[xr.Dataset]) -> bool:
-    if name == "force" or (name == "peak_line_load" and all(map(across_period, runs))):
+    if name in ("force", per_length("force")) or (
+        name == "peak_line_load" and all(map(across_period, runs))
+    ):
         return any(np.ptp(run[name].values) > _CONSTANT * np.max(run[name].values) for run in runs)
     return not all(is_idle(run, name) for run in runs)
 
@@ -133,7 +153,11 @@ def history_panel(
     is_drawn = not all(lacks_curve(run, name) for run in each)
     return Panel(
         along_run([*each, *([] if reference is None else [reference])], units),
-        Axis(variable.label, y, limits_around(curves, from_zero=name == "force")),
+        Axis(
+            variable.label,
+            y,
+            limits_around(curves, from_zero=name in ("force", per_length("force"))),
+        ),
         tuple(curves),
         marks=event_marks(each[0]) if len(runs) == 1 else (),
         note=_note(each, name),

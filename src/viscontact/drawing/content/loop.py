@@ -16,7 +16,7 @@ from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import drawn_values, is_rounding, stated_error
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import SCALARS, shown_name
 from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Relative change below which a force is steady, and its level over the length of the axis.
@@ -111,7 +111,7 @@ def _turns_back(run: xr.Dataset, axis: str) -> bool:
 
 
 def _resistance(run: xr.Dataset, axis: str) -> Loop:
-    scalars = f"position_{axis}", f"resistance_{axis}"
+    scalars = f"position_{axis}", shown_name(f"resistance_{axis}", run)
     return Loop(f"loop-{axis}", *scalars, "motion work", *_ends(run))
 
 
@@ -134,6 +134,7 @@ def _last_loss(runs: list[xr.Dataset]) -> str:
     """Loss of the last complete cycle of a single run, in words."""
     if len(runs) > 1 or "loss_per_cycle" not in runs[0]:
         return ""
-    losses = runs[0]["loss_per_cycle"].values
+    name = shown_name("loss_per_cycle", runs[0])
+    losses, unit = runs[0][name].values, SCALARS[name].units
     known = losses[np.isfinite(losses)]
-    return f"loss per cycle {format_quantity(float(known[-1]), 'J', 3)}" if known.size else ""
+    return f"loss per cycle {format_quantity(float(known[-1]), unit, 3)}" if known.size else ""

@@ -10,7 +10,7 @@ from viscontact.drawing.content.force_curve import adheres
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.figures import FigureEntry
 from viscontact.results.fretting import acting_directions, is_gripping
-from viscontact.results.shown_scalars import is_long, lacks_datum
+from viscontact.results.shown_scalars import is_line, is_long, lacks_datum
 
 
 def is_of_use(entry: FigureEntry, ds: xr.Dataset) -> bool:
@@ -21,7 +21,7 @@ def is_of_use(entry: FigureEntry, ds: xr.Dataset) -> bool:
 
 def has_line_load(ds: xr.Dataset) -> bool:
     """True for a long contact with its pressure."""
-    return is_long(ds) and "pressure" in ds
+    return is_long(ds) and "pressure" in ds and not is_line(ds)
 
 
 def has_loops(ds: xr.Dataset) -> bool:

@@ -30,9 +30,12 @@ from viscontact.results.variables import (
     error_name,
     field_axis_attributes,
     fields_of,
+    parts_of,
+    parts_on,
     scalar_attributes,
     scalars_of,
     scalars_with_error,
+    value_of,
 )
 
 #: Memory for rows that are copied from one file to another [bytes].
@@ -118,7 +121,8 @@ class Contents:
         """Return the layout of the result's file for some grid of the fields."""
         axis = self.fields.axis(self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
-        return Layout(grid, axis, self.errors, kind, self.parts, self.over)
+        parts = parts_on(grid, self.parts)
+        return Layout(grid, axis, self.errors, kind, parts, self.over)
 
 
 def created(
@@ -176,9 +180,10 @@ def write_scalars(
     if not states:
         return
     over = states[0].over
-    scalars = scalars_of(states[0].parts, over)
+    scalars = scalars_of(parts_of(states[0]), over)
     for name, variable in {over: AXES[over], **scalars}.items():
-        values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
+        own = (getattr(state, over) if name == over else value_of(state, name) for state in states)
+        values = np.array(list(own), dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
         digests.add(name, values)
     unknown = np.full(len(states), np.nan)  # which fills the rows until the errors are known

@@ -15,7 +15,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.results.damage import DamagedFileError
 from viscontact.results.line_digests import ROW, is_as_written, read_entries, with_digest
-from viscontact.results.variables import AXES, error_name, scalars_of
+from viscontact.results.variables import AXES, error_name, parts_of, scalars_of, value_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -182,8 +182,8 @@ def reached_in(entries: Mapping[str, Any]) -> float:
 
 def _entries(state: ContactState) -> dict[str, Any]:
     entries: dict[str, Any] = {state.over: float(getattr(state, state.over))}
-    for name, variable in scalars_of(state.parts, state.over).items():
-        number = float(getattr(state, name))
+    for name, variable in scalars_of(parts_of(state), state.over).items():
+        number = value_of(state, name)
         whole = variable.kind.startswith("i")
         # JSON has no NaN.
         entries[name] = (int(number) if whole else number) if math.isfinite(number) else None

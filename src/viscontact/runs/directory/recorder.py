@@ -6,11 +6,12 @@ import logging
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
+from dataclasses import replace
 from typing import NamedTuple, Self
 
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.results.run_files import STATE_NAME
-from viscontact.results.variables import ALLOWABLE, error_name
+from viscontact.results.variables import ALLOWABLE, error_name, with_errors_per_length
 from viscontact.runs.analysis import States
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
@@ -147,7 +148,9 @@ class Recorder:
         with self._undisturbed():
             history = self._writer.history()
         writer, march = self._writer, self._march
-        return self._recorded.run.error_bars(march, history, writer.grid, writer.warnings, on_step)
+        run, issued = self._recorded.run, writer.warnings
+        bars = run.error_bars(march, history, writer.grid, issued, on_step)
+        return replace(bars, values=with_errors_per_length(bars.values, writer.grid))
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with errors and verdicts, and remove the restart state."""

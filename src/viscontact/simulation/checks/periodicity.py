@@ -53,7 +53,7 @@ def check_period(
     if supported:
         return
     if not grid.has_datum:
-        _refuse_approach(load)
+        refuse_approach(load)
         return
     mean = float(open_gap.mean())
     if load.control == "approach" and load.largest_level >= mean:
@@ -66,6 +66,8 @@ def check_period(
 
 def check_endless(indenter: Indenter, grid: Grid | None) -> None:
     """Refuse a body without end along an axis that no period ends; `grid` None is automatic."""
+    if grid is None and indenter.endless[0] != indenter.endless[1]:
+        return  # a line contact, whose automatic grid has a period
     periodic = grid.periodic if grid is not None else (False, False)
     for name, endless, repeats in zip("xy", indenter.endless, periodic, strict=True):
         if endless and not repeats:
@@ -94,7 +96,7 @@ def datum_warnings(
     }
 
 
-def _refuse_approach(load: LoadHistory) -> None:
+def refuse_approach(load: LoadHistory) -> None:
     """Refuse a prescribed approach where it has no datum."""
     if load.control != "force":
         raise ValueError(

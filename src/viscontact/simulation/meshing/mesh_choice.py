@@ -45,6 +45,8 @@ from viscontact.simulation.meshing.creeping_peak import contact_growth
 from viscontact.simulation.meshing.edge_ring import resolve_ring
 from viscontact.simulation.meshing.full_contact_warning import whole_map_warning
 from viscontact.simulation.meshing.height_map_error import facet_error
+from viscontact.simulation.meshing.line_contacts import grid_of_line
+from viscontact.simulation.meshing.line_grid import line_axis
 from viscontact.simulation.meshing.mesh_warnings import (
     EARLY_WARNING,
     EXTENT_WARNING,
@@ -90,6 +92,8 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
         return Mesh(adhesive_grid(problem, end), {}, {})
     indenter, load, compliance = problem.indenter, problem.contact_load, problem.compliance
     request = problem.automatic_grid or AutomaticGrid()
+    if line_axis(indenter) is not None:
+        return Mesh(grid_of_line(problem, end), {}, {})
     # Step 1: the contacts of the history, and the size of the grid.
     response = problem.surface.response_at(math.inf if end is None else end)
     found = contacts_of_history(

@@ -8,12 +8,13 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import fastest_transforms, transforms_by
-from viscontact.bodies.grid import Grid
+from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.simulation.checks.ends import check_ends
-from viscontact.simulation.checks.periodicity import check_endless, check_period
+from viscontact.simulation.checks.periodicity import check_endless, check_period, refuse_approach
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
+from viscontact.simulation.meshing.line_grid import line_axis, line_estimate, line_grid
 from viscontact.simulation.steady_motion.contact import SteadySolver, gap_on
 from viscontact.simulation.steady_motion.moving_law import MovingLaws, moving_laws
 from viscontact.simulation.steady_motion.problem import SteadyProblem
@@ -78,6 +79,7 @@ class SteadySetup:
 
 def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     """Find the law and the grids of a problem; refuse a body that does not touch."""
+    problem = _with_line_grid(problem)
     library = fastest_transforms()
     transforms = transforms_by(library, threads)
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
@@ -101,6 +103,30 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     solver = SteadySolver(problem, laws, transforms)
     setup = SteadySetup(solver, (), threads, library)
     return _on_chosen_grids(setup, fast)
+
+
+def _with_line_grid(problem: SteadyProblem) -> SteadyProblem:
+    """The problem with a grid of its own for a body without end across the motion."""
+    contact, axis = problem.contact, line_axis(problem.contact.indenter)
+    if isinstance(contact.grid, Grid) or axis is None:
+        return problem
+    if axis == problem.axis:
+        raise ValueError(
+            f"motion.along: the body continues along {problem.motion.along} without end, and "
+            "nothing would change by a motion along it; let it move across"
+        )
+    if not contact.surface.is_supported:
+        refuse_approach(contact.load)
+    found = []
+    for speed in (problem.speeds.max(), problem.speeds.min()):
+        time = 1.0
+        for _ in range(ROUNDS + 1):
+            compliance, response = contact.compliance(time), contact.surface.response_at(time)
+            estimate = line_estimate(contact.indenter, float(compliance), problem.point, response)
+            time = estimate.extents[problem.axis] / (2 * float(speed))
+        found.append(estimate)
+    grid = line_grid(found, contact.automatic_grid or AutomaticGrid(), axis)
+    return replace(problem, contact=replace(contact, grid=grid))
 
 
 def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySetup:

@@ -113,7 +113,9 @@ class March:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
         if not self._run.grows:
             return False
-        over = overrun(self._domain.expand_by_symmetry(trial.solution.in_contact), FREE)
+        reached = overrun(self._domain.expand_by_symmetry(trial.solution.in_contact), FREE)
+        along_x, along_y = self._run.grid.periodic  # a period has no rim
+        over = reached[0] and not along_x, reached[1] and not along_y
         if not any(over):
             return False
         larger = next_grid(self._run.grid, *over)

@@ -44,8 +44,9 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
             last = found
             for name, values in scalars.items():
                 values.append(_finite(found.get(name)))
-    for name in scalars.keys() - written if places else ():  # such as friction without motion
-        del labels[name], scalars[name]
+    if places:  # there is no friction without motion, for example
+        labels = labels_in(Place.LIVE, written)
+        scalars = {name: scalars[name] for name in labels}
     return {
         **{"begun": begun, "after": begun + len(lines), "labels": labels},
         **{"reached": _place_of(last), "texts": _texts(last, labels)},
