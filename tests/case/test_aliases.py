@@ -216,7 +216,7 @@ def test_the_schema_lists_aliases_in_place_of_their_keys() -> None:
     assert "radius" not in sphere["required"]
     assert sphere["allOf"] == [{"oneOf": [{"required": ["radius"]}, {"required": ["diameter"]}]}]
     lengths = [name for name, of in roller["properties"].items() if "x-alias-of" in of]
-    assert lengths == ["diameter", "straight_length", "length"]
+    assert lengths == ["diameter", "counter_diameter", "straight_length", "length"]
     assert {"not": {"required": ["tilt_x", "misalignment"]}} in step["allOf"]
     assert "frequency" in sections["Harmonic"]["properties"]
     assert "frequency" in sections["Reciprocating"]["properties"]
@@ -241,6 +241,17 @@ MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "tim
         ("material", SERIES | {"E": "1 GPa"}, "'instant', its inverse 1/E, with data: uniaxial?"),
         ("material", MODULI | {"E": "1 GPa"}, "'equilibrium', and moduli, with data: uniaxial?"),
         ("material", MODULI | {"G": "1 GPa"}, "'equilibrium', and moduli, with data: shear?"),
+        (
+            "material",
+            MODULI | {"E_inf": "1 GPa"},
+            "did you mean 'equilibrium', with data: uniaxial",
+        ),
+        ("material", MODULI | {"E0": "1 GPa"}, "did you mean 'moduli', [E_1, E_2, ...], which add"),
+        ("material", SERIES | {"G0": "1 GPa"}, "did you mean 'instant', its inverse 1/G0, with"),
+        ("material", {"law": "relaxation-series"}, "write e.g. 'moduli: [50 MPa, 25 MPa]'"),
+        ("material", {"law": "relaxation-series"}, "write e.g. 'data: uniaxial'"),
+        ("indenter", {"shape": "pyramid", "half_angle": "35 deg"}, "write e.g. 'faces: 4'"),
+        ("load", {"kind": "history", "sentences": "sink to 1 um"}, "approach to 1 um in 0.5 s"),
         ("material", SERIES | {"Shore": 60}, "Shore: a hardness does not determine how a material"),
         ("material", SERIES | {"youngs_modulus": "1 GPa"}, "'instant', its inverse 1/E, with data"),
         ("material", CARD | {"youngs_modulus": "1 GPa"}, "It goes with law: elastic or maxwell"),

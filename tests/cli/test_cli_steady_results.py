@@ -1,5 +1,6 @@
 """Results of steady motion on the command line: their figures, and what is refused."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -35,3 +36,12 @@ def test_what_belongs_to_runs_over_time_is_refused(
     ):
         assert main(arguments) == 2
         assert message in " ".join(capsys.readouterr().err.split())
+
+
+def test_frictions_of_several_runs_are_compared_by_default(
+    stored: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(stored.parent)
+    shutil.copy(stored, "other.nc")
+    assert main(["compare", "curve.nc", "other.nc"]) == 0
+    assert Path("compare-friction.png").stat().st_size > 1000

@@ -244,7 +244,10 @@ def _example(model: type[BaseModel], key: str) -> str:
         if dimension := getattr(annotation, "dimension", None):
             examples = fields[key].examples or [DIMENSIONS[dimension].example]
             return f"; write e.g. '{key}: {examples[0]}'"
-    described = fields[key].description
+    described, [example, *_] = fields[key].description, fields[key].examples or [None]
+    if example is not None:
+        written = f"[{', '.join(example)}]" if isinstance(example, list) else example
+        described = f"{f'{described}; ' if described else ''}write e.g. '{key}: {written}'"
     return f"; {described}" if described else ""
 
 

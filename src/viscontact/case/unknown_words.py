@@ -6,7 +6,7 @@ import difflib
 
 #: Words of other programs and of the field for a shape, law, kind or value.
 _OTHER_VALUES = {
-    **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
+    **{"roll": "cylinder", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
     **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
     **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
@@ -43,6 +43,27 @@ _SHEAR_MODULUS = {
     "compliance": "its inverse 1/G, with data: shear",
 }
 _POISSON = {"poisson_ratio": ""}
+#: Moduli just after a step and long after it: of a series the sum of all, and the equilibrium.
+_INITIAL_MODULUS = {
+    "youngs_modulus": "",
+    "moduli": f"[E_1, E_2, ...], which add up to E0 with equilibrium, {_UNIAXIAL}",
+    "instant": f"its inverse 1/E0, {_UNIAXIAL}",
+}
+_INITIAL_SHEAR_MODULUS = {
+    "shear_modulus": "",
+    "moduli": "[G_1, G_2, ...], which add up to G0 with equilibrium, with data: shear",
+    "instant": "its inverse 1/G0, with data: shear",
+}
+_FINAL_MODULUS = {
+    "equilibrium": _UNIAXIAL,
+    "equilibrium_modulus": "",
+    "delayed_modulus": "beside youngs_modulus, with 1/E_inf = 1/youngs_modulus + 1/delayed_modulus",
+}
+_FINAL_SHEAR_MODULUS = {
+    "equilibrium": "with data: shear",
+    "equilibrium_modulus": "",
+    "delayed_modulus": "beside shear_modulus, with 1/G_inf = 1/shear_modulus + 1/delayed_modulus",
+}
 _FORCE = {"force": "", "mean": ""}
 _APPROACH = {"approach": ""}
 
@@ -52,6 +73,10 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("e young youngs_modulus young_modulus modulus", _YOUNGS_MODULUS),
     ("elastic_modulus tensile_modulus e_modulus", _YOUNGS_MODULUS),
     ("g shear_modulus rigidity", _SHEAR_MODULUS),
+    ("e0 e_0 initial_modulus", _INITIAL_MODULUS),
+    ("g0 g_0", _INITIAL_SHEAR_MODULUS),
+    ("einf e_inf e_infinity long_term_modulus", _FINAL_MODULUS),
+    ("ginf g_inf g_infinity", _FINAL_SHEAR_MODULUS),
     ("k compression_modulus", {"bulk_modulus": ""}),
     ("eta damping", {"viscosity": ""}),
     ("tau relaxation_time", {"times": "", "time": ""}),

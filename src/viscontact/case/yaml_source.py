@@ -30,6 +30,9 @@ _MOST_MERGED, _LONGEST_TAG = 50, 1000
 _MOST_COPIED = 100_000
 # Number and unit, which YAML reads as a text.
 _QUANTITY = re.compile(r"[+-]?\d+\.?\d*(?:[eE][+-]?\d+)? [A-Za-zµμΩ°%/][\wµμΩ°%/*^ ()-]*")
+#: Part of a text in which data are looked for, and a line of several numbers.
+_LOOKED_AT = 4096
+_NUMBERS = re.compile(r"[-+\d.][-+\d.eE]*(?:[\s,;]+[-+\d.][-+\d.eE]*)+[\s,;]*")
 # Possible places of aliases, those in texts and comments included.
 _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 
@@ -114,6 +117,7 @@ def _yaml() -> YAML:
 
 
 def _load(text: str) -> Any:
+    _refuse_data(text)
     _refuse_endless(text)
     try:
         with warnings.catch_warnings():
@@ -132,6 +136,18 @@ def _load(text: str) -> Any:
     except Exception as error:  # malformed text makes the parser raise many other kinds
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise SourceError(f"not valid YAML: {why}") from error
+
+
+def _refuse_data(text: str) -> None:
+    """Refuse the numbers of a table or of a height map."""
+    start = text[:_LOOKED_AT]
+    first = next((line for line in start.splitlines() if line.strip()), "")
+    numbers = _NUMBERS.fullmatch(first.strip()) is not None
+    if "NUMPY" in start[:8] or "\0" in start or numbers:
+        raise SourceError(
+            "is no case file, but holds numbers, as a table or a height map does; a case names it "
+            "by a key 'file', and on the page it is given by Upload"
+        )
 
 
 def _refuse_endless(text: str) -> None:

@@ -152,6 +152,7 @@ TABLE = (
     FigureEntry(
         "friction",
         of="speed",
+        compare="compare_frictions",
         takes=("theory",),
         reported=Reported("friction", "Friction coefficient over speed", "friction"),
     ),

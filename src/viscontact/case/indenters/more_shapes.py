@@ -50,7 +50,7 @@ class Pyramid(Shape):
 
     shape: Literal["pyramid"]
     half_angle: OpenAngle = Field(description="from the axis to a face", examples=["68 deg"])
-    faces: FaceCount = Field(description="number of faces")
+    faces: FaceCount = Field(description="number of faces", examples=["4"])
 
     def build(self) -> indenters.Pyramid:
         """Return the pyramid."""

@@ -38,10 +38,20 @@ class RelaxationSeries(Medium):
     """Relaxation modulus G_inf + sum G_i exp(-t/tau_i), a Prony series."""
 
     law: Literal["relaxation-series"]
-    equilibrium: ModulusOrZero = Field(description="G_inf", examples=["100 MPa"])
-    moduli: list[ModulusOrZero] = Field(description="G_i")
-    times: list[Duration] = Field(description="relaxation times tau_i")
-    data: Literal["shear", "uniaxial"] = Field(description="moduli are shear (G) or uniaxial (E)")
+    equilibrium: ModulusOrZero = Field(
+        description="modulus at long times, E or G as data says", examples=["100 MPa"]
+    )
+    moduli: list[ModulusOrZero] = Field(
+        description="moduli of the terms, E or G as data says; with equilibrium they add up to the "
+        "modulus at first",
+        examples=[["50 MPa", "25 MPa"]],
+    )
+    times: list[Duration] = Field(
+        description="relaxation times tau_i, one for each of moduli", examples=[["1 s", "100 s"]]
+    )
+    data: Literal["shear", "uniaxial"] = Field(
+        description="moduli are shear (G) or uniaxial (E)", examples=["uniaxial"]
+    )
 
     def build_law(self) -> Law:
         """Return the law, from shear or uniaxial moduli."""

@@ -123,12 +123,12 @@ def compare(
         list[Path], typer.Argument(metavar="DIR...", help="Runs, their .nc files, or a sweep.")
     ],
     figure: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--figure",
-            help=f"{', '.join(compared_names())}.",
+            help=f"{', '.join(compared_names())}; by default history, in steady motion friction.",
         ),
-    ] = "history",
+    ] = None,
     times: Instants = None,
     speeds: Speeds = None,
     output: Picture = None,

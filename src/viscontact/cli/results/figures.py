@@ -16,6 +16,7 @@ from viscontact.cli.terminal.progress import counted
 from viscontact.drawing.choice import FigureChoice, require_one_axis
 from viscontact.drawing.content.ordered_names import in_order
 from viscontact.drawing.figures import TABLE, FigureEntry, compared_names
+from viscontact.results.run_axis import run_axis
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.states import State
 from viscontact.units.parsing import parse_quantity
@@ -68,15 +69,16 @@ def _sweep(figure: str, directory: Path) -> xr.Dataset:
 
 def draw_comparison(
     directories: Sequence[Path],
-    figure: str,
+    figure: str | None,
     times: Sequence[str],
     output: Path | None,
     options: Options | None = None,
     speeds: Sequence[str] = (),
 ) -> Path:
-    """Draw a figure of several runs."""
+    """Draw a figure of several runs; by default their histories, or friction over speed."""
     plot = plot_package()
     directories = compared_runs(directories)
+    figure = figure or _usual_comparison(directories)
     choice = FigureChoice(figure, tuple(times), tuple(speeds), "--")
     entry, given = _choose_figure(choice, compared_names(), options or {})
     if len(directories) < 2:
@@ -106,6 +108,14 @@ def draw_comparison(
             **given,
         )
     return file
+
+
+def _usual_comparison(directories: Sequence[Path]) -> str:
+    """Figure that suits the first of several runs."""
+    if not directories:
+        return "history"
+    with checked_result(directories[0]) as ds:
+        return "history" if run_axis(ds).is_history else "friction"
 
 
 def plot_package() -> Any:

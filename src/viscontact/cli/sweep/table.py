@@ -37,6 +37,7 @@ class _RunValues:
     largest: dict[str, float]
     marked: frozenset[str]  # scalars that depend on the mesh at any instant
     error: float  # largest relative one [-], nan if unknown, inf if it depends on the mesh
+    uncertain: str  # the scalar that has it
     seconds: float
     warnings: tuple[str, ...]
     verdict: str  # the worst on the allowable values, and on what; empty without any
@@ -85,13 +86,15 @@ def _values_of(ds: xr.Dataset) -> _RunValues:
     names = shown_scalars(ds, Place.KEY)
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
-    known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
-    error = max((part for part in known if not math.isnan(part)), default=math.nan)
+    parts = {name: each.part for name in names if (each := largest_error(ds, name)) is not None}
+    known = {name: part for name, part in parts.items() if not math.isnan(part)}
+    uncertain = max(known, key=known.__getitem__, default="")
+    error = known.get(uncertain, math.nan)
     marked = frozenset(name for name in names if mesh_dependent(ds, name).any())
     over = run_axis(ds).name
     judged, seconds = verdicts(ds), float(ds.attrs["wall_time"])
     verdict = ": ".join(filter(None, (overall(judged), deciding(judged).replace("_", " "))))
-    return _RunValues(over, largest, marked, error, seconds, warnings, verdict)
+    return _RunValues(over, largest, marked, error, uncertain, seconds, warnings, verdict)
 
 
 def _table(names: Sequence[str], columns: Sequence[_RunColumn], title: str | None = None) -> Table:
@@ -129,12 +132,19 @@ def _value_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:
         if name in shown:
             largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
             unit = readable_unit(SCALARS[name].units, largest)
-            heading = "\n".join([*name.split("_"), f"[{unit.symbol}]"])
+            heading = "\n".join([*name.split("_"), *([f"[{unit.symbol}]"] if unit.symbol else [])])
             yield _RunColumn(heading, [_value(each, name, unit) if each else "" for each in found])
     errors = [math.nan if each is None else each.error for each in found]
     if not all(map(math.isnan, errors)):
-        texts = ["" if math.isnan(each) else format_percent(each) for each in errors]
+        texts = [
+            "" if each is None or math.isnan(each.error) else _error_text(each) for each in found
+        ]
         yield _RunColumn("largest\nerror", texts)
+
+
+def _error_text(found: _RunValues) -> str:
+    """The largest error, and of what."""
+    return f"{format_percent(found.error)}\n{found.uncertain.replace('_', ' ')}"
 
 
 def _verdict_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
@@ -11,6 +14,7 @@ from viscontact.bodies.indenters import Indenter, Paraboloid, Roller, Sphere
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.bodies.materials.material import Material
 from viscontact.drawing.content.along_run import texts_along
+from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import (
     FAINT,
     FIRST,
@@ -34,7 +38,7 @@ NAME = "friction_coefficient"
 #: Bodies of constant curvature along their motion.
 _ROUND = (Paraboloid, Sphere, Roller)
 #: Speeds of the curves of the limits, and room above and below the values, as a factor.
-_SAMPLES, _ROOM = 60, 2.0
+_SAMPLES, _ROOM = 60, 1.3
 
 
 def friction_panel(
@@ -66,6 +70,23 @@ def friction_panel(
         Axis(variable.label, units(variable.units), (lowest, highest), "log"),
         (_curve(run, FIRST), *others, *limits),
         bands=bands,
+        name=NAME,
+    )
+
+
+def frictions_panel(runs: Mapping[str, xr.Dataset]) -> Panel:
+    """Panel of several results over speed, in order, by name."""
+    values = np.concatenate([run[NAME].values for run in runs.values()])
+    positive, variable = values[values > 0], SCALARS[NAME]
+    limits = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
+    speeds = np.concatenate([run["speed"].values for run in runs.values()])
+    return Panel(
+        Axis("Speed", readable_unit("m/s", speeds), scale="log"),
+        Axis(variable.label, readable_unit(variable.units), limits, "log"),
+        tuple(
+            replace(_curve(run, ink), name=name)
+            for (name, run), ink in zip(runs.items(), inks_of(list(runs)), strict=True)
+        ),
         name=NAME,
     )
 

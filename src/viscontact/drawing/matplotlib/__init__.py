@@ -34,7 +34,11 @@ from viscontact.drawing.matplotlib.histories.hysteresis import compare_hysteresi
 from viscontact.drawing.matplotlib.histories.leak_rate import leak_rate
 from viscontact.drawing.matplotlib.histories.margins import margin_history
 from viscontact.drawing.matplotlib.histories.rough_theory import rough_theory
-from viscontact.drawing.matplotlib.histories.steady_motion import friction, motion_profile
+from viscontact.drawing.matplotlib.histories.steady_motion import (
+    compare_frictions,
+    friction,
+    motion_profile,
+)
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.drawing.matplotlib.materials.fitted import (
@@ -92,6 +96,7 @@ __all__ = [
     "area_pressure",
     "compare_contact_outlines",
     "compare_creep",
+    "compare_frictions",
     "compare_histories",
     "compare_hysteresis",
     "compare_line_loads",

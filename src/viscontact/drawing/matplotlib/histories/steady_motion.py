@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.drawing.content.friction import friction_panel
+from viscontact.drawing.content.friction import friction_panel, frictions_panel
 from viscontact.drawing.content.motion_profile import motion_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
@@ -71,6 +73,62 @@ def friction(
     handles, labels = named_keys(panel.curves)
     if len(handles) > 1:
         style.add_legend(axes, handles, labels, loc="best")
+    return style.figure_of(axes)
+
+
+def compare_frictions(
+    runs: Mapping[str, xr.Dataset], *, axes: Axes | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the friction coefficients of several results over the speed.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        From `viscontact.steady`, by name.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw in; by default a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A line with a point and its error bar for each speed, on logarithmic axes.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, one is not of steady motion, or one has no positive friction.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
+    >>> ball, speeds = vc.Paraboloid(0.01, 0.01), [0.01, 0.1]
+    >>> runs = {
+    ...     f"{force} N": vc.steady(
+    ...         ball, rubber, vc.step(force, tilt_x=0.0, tilt_y=0.0), speeds, errors=False
+    ...     )
+    ...     for force in (1.0, 2.0)
+    ... }
+    >>> axes = compare_frictions(runs).axes[0]
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
+    ['1.0 N', '2.0 N']
+    """
+    if not runs:
+        raise ValueError("friction: needs at least one result")
+    for name, run in runs.items():
+        if "speed" not in run.dims:
+            raise ValueError(f"friction: {name} is no result of steady motion")
+        if not has_friction(run):
+            raise ValueError(f"friction: no friction coefficient of {name} is positive")
+    if axes is None:
+        wide = page_width(width, style.ONE_COLUMN)
+        axes = style.new_figure(wide, 0.7 * wide).subplots()
+    panel = frictions_panel({name: run.sortby("speed") for name, run in runs.items()})
+    draw_panel(axes, panel)
+    axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
+    style.add_legend(axes, *named_keys(panel.curves), loc="best")
     return style.figure_of(axes)
 
 

@@ -14,6 +14,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import Aside, Axis, Curve, Mark, Panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.error_band import ErrorBand, draw_band
+from viscontact.drawing.matplotlib.layout.log_ticks import plain_log_ticks
 from viscontact.drawing.matplotlib.layout.log_time import label_log_time, set_log_time
 from viscontact.drawing.matplotlib.layout.page import NARROW
 
@@ -177,6 +178,7 @@ def _scale_up(axes: Axes, axis: Axis) -> None:
         axes.set_yticks(range(len(axis.texts)), list(map(style.literal, axis.texts)))
     elif axis.scale == "log":
         axes.set_yscale("log")
+        plain_log_ticks(axes.yaxis)
     else:
         axes.ticklabel_format(axis="y", useOffset=False)
     if axis.is_reversed:
@@ -194,6 +196,7 @@ def scale_along(axes: Axes, axis: Axis) -> None:
             axes.set_xlim(start, end)
     if axis.scale == "log":
         axes.set_xscale("log")
+        plain_log_ticks(axes.xaxis)
     if axis.limits is not None and (axis.scale == "time" or axis.in_clock_units):
         first = float(axis.unit(axis.first))
         label = label_log_time(axes, axis.unit, first, end, axis.quantity)
