@@ -169,8 +169,8 @@ LINE = "case.yaml:3: "
         (
             {"kind": "step", "force": "1 N", "sentences": "unload"},
             "load.sentences: unknown key. Allowed: approach, eccentricity_x, eccentricity_y, force,"
-            " kind, mean_pressure, misalignment, stage_stiffness, tilt_x, tilt_y. It goes with"
-            " kind: history",
+            " kind, line_load, mean_pressure, misalignment, stage_stiffness, tilt_x, tilt_y. It"
+            " goes with kind: history",
         ),
         ({**SWING, "approach": "1 mm"}, "load.mean: mean and approach exclude each other"),
         ({**SWING, "amplitude": "2 mm"}, "load.amplitude: must be a force, as the mean is"),

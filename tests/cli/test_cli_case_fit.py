@@ -95,7 +95,7 @@ def test_an_interrupted_fit_goes_on_with_resume_only(
         *((("fit", "a.csv", *typed), f"{typed[0]}: needs --case CASE.yaml") for typed in OF_RUNS),
         (("fit", "a.csv", *MODULUS), "--change: needs --case CASE.yaml"),
         (("fit", "a.csv", "--report", "a.html"), "--report: needs --case CASE.yaml"),
-        (("fit", "a.csv", "a.csv"), "2 tables: needs --case CASE.yaml"),
+        (("fit", "a.csv", "a.csv"), "2 tables: give --indenter"),
         (("fit", "b.csv", "--case", "ball.yaml", *MODULUS), "no such file"),
         (("fit", "a.csv", "--case", "none.yaml", *MODULUS), "none.yaml"),
     ],

@@ -6,6 +6,7 @@ from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_rela
 from viscontact.bodies.series_fits.quality import Misfit, Reason
 from viscontact.identification.adhesion_fit import AdhesionFit, fit_adhesion
 from viscontact.identification.contact_point import ContactPoint, find_contact
+from viscontact.identification.curve_batch import CurveFits, FittedCurve, fit_each
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
@@ -26,8 +27,10 @@ __all__ = [
     "AdhesionFit",
     "Cantilever",
     "ContactPoint",
+    "CurveFits",
     "Fit",
     "FittedContact",
+    "FittedCurve",
     "ForceCurve",
     "FoundShift",
     "IndentationFit",
@@ -44,6 +47,7 @@ __all__ = [
     "fit_arrhenius",
     "fit_creep",
     "fit_dynamic",
+    "fit_each",
     "fit_indentation",
     "fit_master_curve",
     "fit_relaxation",

@@ -38,13 +38,24 @@ class Candidate:
             return np.where(self.bounded, 1.0 / (1.0 + np.exp(-free)), grown)
 
 
-def candidate(name: str, terms: int, modulus: float, duration: float) -> Candidate:
-    """Candidate law of `CANDIDATES`, started from apparent shear modulus [Pa] and duration [s]."""
+def candidate(
+    name: str, terms: int, modulus: float, duration: float, reference: float | None = None
+) -> Candidate:
+    """Candidate law of `CANDIDATES`, started from apparent shear modulus [Pa] and duration [s].
+
+    A power law states its compliance at the time `reference` [s], or at the end of the record.
+    """
     if name not in CANDIDATES:
         raise ValueError(
             f"fit_indentation: law must be one of {', '.join(CANDIDATES)}, got {name!r}"
         )
-    return CANDIDATES[name](terms, modulus, duration)
+    if reference is None:
+        return CANDIDATES[name](terms, modulus, duration)
+    if name not in _POWER_LAWS:
+        raise ValueError(
+            f"fit_indentation: reference_time goes with {' or '.join(_POWER_LAWS)}; {name} has none"
+        )
+    return _POWER_LAWS[name](terms, modulus, duration, reference)
 
 
 def _elastic(terms: int, modulus: float, duration: float) -> Candidate:
@@ -91,21 +102,35 @@ def _creep_series(terms: int, modulus: float, duration: float) -> Candidate:
     return Candidate(names, units, build, (start,))
 
 
-def _power_law(terms: int, modulus: float, duration: float) -> Candidate:
+def _power_law(
+    terms: int, modulus: float, duration: float, reference: float | None = None
+) -> Candidate:
     # The compliance at the end of the record: nearest to what was measured.
-    def build(compliance: float, exponent: float) -> laws.PowerLaw:
-        return laws.PowerLaw(compliance, exponent, duration)
+    stated = reference or duration
 
-    starts = tuple((0.5 / modulus, exponent) for exponent in (0.05, 0.2, 0.5))
+    def build(compliance: float, exponent: float) -> laws.PowerLaw:
+        return laws.PowerLaw(compliance, exponent, stated)
+
+    starts = tuple(
+        (0.5 / modulus * (stated / duration) ** exponent, exponent) for exponent in (0.05, 0.2, 0.5)
+    )
     return Candidate(("compliance", "exponent"), ("1/Pa", ""), build, starts)
 
 
-def _power_law_with_instant(terms: int, modulus: float, duration: float) -> Candidate:
+def _power_law_with_instant(
+    terms: int, modulus: float, duration: float, reference: float | None = None
+) -> Candidate:
+    stated = reference or duration
+
     def build(compliance: float, exponent: float, instant: float) -> laws.PowerLaw:
-        return laws.PowerLaw(compliance, exponent, duration, instant)
+        return laws.PowerLaw(compliance, exponent, stated, instant)
 
     starts = tuple(
-        (0.5 * (1 - share) / modulus, exponent, 0.5 * share / modulus)
+        (
+            0.5 * (1 - share) / modulus * (stated / duration) ** exponent,
+            exponent,
+            0.5 * share / modulus,
+        )
         for share, exponent in itertools.product((0.2, 0.7), (0.2, 0.5))
     )
     names, units = ("compliance", "exponent", "instant"), ("1/Pa", "", "1/Pa")
@@ -122,3 +147,4 @@ CANDIDATES: dict[str, Callable[[int, float, float], Candidate]] = {
     "power-law": _power_law,
     "power-law-with-instant": _power_law_with_instant,
 }
+_POWER_LAWS = {"power-law": _power_law, "power-law-with-instant": _power_law_with_instant}

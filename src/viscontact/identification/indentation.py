@@ -20,7 +20,7 @@ from viscontact.identification.fitting import fitted_curve, fitted_record
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.record_problem import RecordProblem
-from viscontact.units.numbers import whole
+from viscontact.units.numbers import positive, whole
 
 
 def fit_indentation(  # noqa: PLR0913
@@ -33,6 +33,7 @@ def fit_indentation(  # noqa: PLR0913
     given: str = "approach",
     confidence: float = 0.95,
     until: str | float | None = None,
+    reference_time: float | None = None,
 ) -> IndentationFit:
     """Fit a law to an indentation record by its exact solution, with confidence intervals.
 
@@ -58,6 +59,9 @@ def fit_indentation(  # noqa: PLR0913
         Part of the record that is fitted: up to the end of ``"loading"`` or of ``"hold"``, to the
         ``"end"``, or up to an instant [s]. By default the whole record; loading and hold only,
         with a warning, where the force becomes negative during retraction.
+    reference_time : float, optional
+        Time at which a power law states its compliance [s], so that those of several curves can be
+        compared; by default the duration of the fitted part, from contact on.
 
     Returns
     -------
@@ -97,8 +101,6 @@ def fit_indentation(  # noqa: PLR0913
     covariance is the one under noise of this spectrum, taken to be at each frequency as strong as
     in the strongest band above it.
 
-    A power law is given by its compliance at the end of the fitted part, from contact on.
-
     Examples
     --------
     >>> from viscontact.bodies.indenters import Sphere
@@ -118,7 +120,9 @@ def fit_indentation(  # noqa: PLR0913
     is_curve = record.cantilever is not None and given == "approach"
     if not is_curve:
         fitted = fitted.near_contact()
-    shape = _candidate(law, int(terms), modulus, fitted)
+    if reference_time is not None:
+        reference_time = positive("fit_indentation: reference_time", reference_time, "s")
+    shape = _candidate(law, int(terms), modulus, fitted, reference_time)
     with limit_threads():  # on matrices this small, more threads mostly wait
         if is_curve:
             curve = CurveProblem(fitted, stroke_of(fitted), shape, material)
@@ -132,11 +136,17 @@ def fit_indentation(  # noqa: PLR0913
     return found
 
 
-def _candidate(law: str, terms: int, modulus: float, record: IndentationRecord) -> Candidate:
+def _candidate(
+    law: str,
+    terms: int,
+    modulus: float,
+    record: IndentationRecord,
+    reference: float | None = None,
+) -> Candidate:
     """Candidate law; refused if the record has fewer than two rows per parameter."""
     touched = record.times[int(np.argmax(record.approach > 0))]
     begin = record.times[0] if record.cantilever is None else touched
-    shape = candidate(law, terms, modulus, float(record.times[-1] - begin))
+    shape = candidate(law, terms, modulus, float(record.times[-1] - begin), reference)
     if record.times.size < 2 * len(shape.names):
         raise ValueError(
             f"fit_indentation: {law} has {len(shape.names)} parameters and needs at least "

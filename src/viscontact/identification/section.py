@@ -122,16 +122,27 @@ def _volume(poisson_ratio: float | None, bulk_modulus: float | None) -> str:
     return "# the data are of shear alone: add poisson_ratio, or bulk_modulus"
 
 
+#: Unit of moduli, and the modulus below which it is a pascal [Pa].
+_MEGAPASCAL, _SOFT = (1e6, "MPa"), 1e4
+
+
 def _list_words(words: Iterable[str]) -> str:
     return f"[{', '.join(words)}]"
 
 
 def _compliance(value: float) -> str:
-    return f"{1e6 * value:.{_DIGITS}g} / MPa"
+    factor, unit = _unit_of(1 / value) if value > 0 else _MEGAPASCAL
+    return f"{factor * value:.{_DIGITS}g} / {unit}"
 
 
 def _modulus(value: float) -> str:
-    return f"{1e-6 * value:.{_DIGITS}g} MPa"
+    factor, unit = _unit_of(value)
+    return f"{value / factor:.{_DIGITS}g} {unit}"
+
+
+def _unit_of(modulus: float) -> tuple[float, str]:
+    """Factor and symbol of the unit of a modulus [Pa]: smaller ones for gels."""
+    return _MEGAPASCAL if modulus >= _SOFT or modulus <= 0 else (1.0, "Pa")
 
 
 def _duration(value: float) -> str:
@@ -139,7 +150,8 @@ def _duration(value: float) -> str:
 
 
 def _viscosity(value: float) -> str:
-    return f"{1e-6 * value:.{_DIGITS}g} MPa s"
+    factor, unit = _unit_of(value)
+    return f"{value / factor:.{_DIGITS}g} {unit} s"
 
 
 def _fluidity(value: float) -> str:

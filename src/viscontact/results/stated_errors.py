@@ -98,8 +98,8 @@ def is_rounding(ds: Result, name: str) -> bool:
     # Tilts and eccentricities under a centred load are, and the resistance across the motion.
     if is_centred(ds, name):
         return True
-    if name in SCALARS and SCALARS[name].per_length_of in ds:
-        return is_rounding(ds, SCALARS[name].per_length_of)
+    if name in SCALARS and (period := SCALARS[name].per_length_of):
+        return is_rounding(ds, period)
     largest = _maximum(ds[name].values)
     return largest == 0.0 or largest <= _rounding_of_motion(ds, name)
 

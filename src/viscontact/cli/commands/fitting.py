@@ -16,8 +16,9 @@ Tables = Annotated[
     typer.Argument(
         metavar="FILE.csv...",
         help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
-        "quantities and units. Or a force curve of an instrument (.jpk-force, .h5). Several files "
-        "with --case.",
+        "quantities and units. Or a force curve of an instrument (.jpk-force, .h5). Several "
+        "indentations, or a directory of them, are fitted one by one, to a table; with --case all "
+        "together.",
     ),
 ]
 Test = Annotated[
@@ -174,6 +175,24 @@ LawName = Annotated[
         "power-law or power-law-with-instant; by default zener.",
     ),
 ]
+ReferenceTime = Annotated[
+    str | None,
+    typer.Option(
+        "--reference-time",
+        metavar="T",
+        help="Time at which a power law states its compliance, e.g. '1 s', so that several "
+        "curves can be compared; by default the length of the record.",
+    ),
+]
+TablePath = Annotated[
+    Path | None,
+    typer.Option(
+        "--table",
+        metavar="OUT.csv",
+        help="Table of the fits of several curves, with intervals and failures; by default "
+        "fits.csv.",
+    ),
+]
 Figure = Annotated[
     Path | None,
     typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
@@ -284,6 +303,8 @@ def fit(
     reach: Reach = None,
     until: Until = None,
     law: LawName = None,
+    reference_time: ReferenceTime = None,
+    table: TablePath = None,
     output: Figure = None,
     width: Width = None,
     section: Section = None,
@@ -306,8 +327,9 @@ def fit(
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
     printed; of a test whose temperature varied, law and shift are found together. In a force curve,
-    contact point and baseline are found together with the law. With --case, values of a case are
-    fitted to records by runs of the case.
+    contact point and baseline are found together with the law; many curves, as curves/*.csv, give
+    one table and histograms of their values. With --case, values of a case are fitted to records by
+    runs of the case.
     """
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
@@ -320,5 +342,12 @@ def fit(
     if case is not None:
         execute_case_fit(typed, page)
         return
-    refuse_without_case(typed)
-    report_fit(files[0], FitArguments.of(typed), output, section, width=page)
+    from viscontact.cli.material.fit_batch import curve_files, report_fits
+
+    curves = curve_files(files)
+    refuse_without_case(typed, len(curves))
+    arguments = FitArguments.of(typed)
+    if len(curves) > 1:
+        report_fits(curves, arguments, output, table, width=page, jobs=jobs, quiet=quiet)
+        return
+    report_fit(curves[0], arguments, output, section, width=page)

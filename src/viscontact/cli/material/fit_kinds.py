@@ -30,6 +30,7 @@ GOES_WITH = {
     "indenter": _INDENTED,
     "until": _INDENTED,
     "law": _INDENTED,
+    "reference_time": _INDENTED,
     "spring_constant": _CURVE,
     "reach": _CURVE,
     "sensitivity": "a force curve with its deflection in volts",
@@ -66,7 +67,7 @@ def switch(parameter: str) -> str:
 _OF_TABLES = frozenset({"columns", "stress"})
 _OF_SERIES = _OF_TABLES | {"data", "fluid"}
 _OF_WARMED = _OF_SERIES | {"reference", "temperature"}
-_OF_INDENTATIONS = frozenset({"indenter", "until", "law"})
+_OF_INDENTATIONS = frozenset({"indenter", "until", "law", "reference_time"})
 _OF_CURVES = _OF_INDENTATIONS | {"spring_constant", "reach"}
 
 INDENTATION = Kind("an indentation record with its approach", _OF_INDENTATIONS | _OF_TABLES)

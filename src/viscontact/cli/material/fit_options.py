@@ -11,7 +11,12 @@ from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions
 from viscontact.bodies.series_fits.shift_rules import RULES
-from viscontact.identification import ForceCurve
+from viscontact.identification import (
+    ForceCurve,
+    IndentationFit,
+    IndentationRecord,
+    fit_indentation,
+)
 from viscontact.identification.candidates import CANDIDATES
 from viscontact.identification.fitted_part import PARTS
 from viscontact.identification.force_curve import tabulated_curve
@@ -47,6 +52,7 @@ class FitArguments:
     until: str | None = None
     shift: str | None = None
     thermal_strain: bool | None = None
+    reference_time: str | None = None
 
     @classmethod
     def of(cls, typed: Mapping[str, Any]) -> Self:
@@ -164,6 +170,22 @@ class FitArguments:
             raise ValueError(
                 f"--until: must be loading, hold, end or a time such as '2.5 s', got {self.until!r}"
             ) from None
+
+    def fitted(self, record: IndentationRecord) -> IndentationFit:
+        """Fit the law to an indentation record."""
+        poisson_ratio, bulk_modulus = self.volume()
+        reference = None
+        if self.reference_time is not None:
+            reference = _read_option("--reference-time", self.reference_time, "time")
+        return fit_indentation(
+            record,
+            self.indented_law,
+            terms=1 if self.terms is None else self.terms,
+            poisson_ratio=poisson_ratio,
+            bulk_modulus=bulk_modulus,
+            until=self.end(),
+            reference_time=reference,
+        )
 
     def _refuse_terms_of_another_law(self, name: str) -> None:
         """Refuse a number of terms for an indentation whose law has none."""

@@ -29,7 +29,6 @@ from viscontact.identification import (
     ShiftFit,
     build_master_curve,
     find_contact,
-    fit_indentation,
     fit_master_curve,
     material_section,
     read_force_curve,
@@ -210,16 +209,8 @@ def _from_force_curve(
 
 
 def _from_record(record: IndentationRecord, arguments: FitArguments) -> tuple[str, DeferredFigure]:
-    poisson_ratio, bulk_modulus = arguments.volume()
     with _warnings_said():
-        fit = fit_indentation(
-            record,
-            arguments.indented_law,
-            terms=1 if arguments.terms is None else arguments.terms,
-            poisson_ratio=poisson_ratio,
-            bulk_modulus=bulk_modulus,
-            until=arguments.end(),
-        )
+        fit = arguments.fitted(record)
     put(repr(fit))
     return material_section(fit), DeferredFigure("fitted_indentation", fit)
 

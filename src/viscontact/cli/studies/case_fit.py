@@ -27,7 +27,9 @@ _OF_RUNS = (
 
 def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> None:
     """Fit values of a case by options of the command; print, draw and write them."""
-    if idle := [switch(each) for each in FitArguments.of(typed).given if each != "columns"]:
+    others = ["table"] if typed["table"] is not None else []
+    given = [each for each in FitArguments.of(typed).given if each != "columns"]
+    if idle := [switch(each) for each in (*given, *others)]:
         refuse(
             f"{', '.join(idle)} does not go with --case, whose file has body and law; leave it out"
         )
@@ -46,14 +48,22 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
         write_report(found, typed["report"])
 
 
-def refuse_without_case(typed: Mapping[str, Any]) -> None:
-    """Refuse options of ``--case`` without it."""
-    given = (name for name in _OF_RUNS if typed[name] is not None and typed[name] is not False)
-    idle = ["--set" if name == "settings" else switch(name) for name in given]
-    count = len(typed["files"])
-    if idle or count > 1:
-        what = ", ".join(idle) or f"{count} tables"
-        refuse(f"{what}: needs --case CASE.yaml, the case of the experiment")
+def refuse_without_case(typed: Mapping[str, Any], curves: int) -> None:
+    """Refuse options of ``--case`` without it, and those that do not go with a number of curves."""
+    given = [name for name in _OF_RUNS if typed[name] is not None and typed[name] is not False]
+    if curves > 1:
+        given = [name for name in given if name != "jobs"]
+    if idle := ["--set" if name == "settings" else switch(name) for name in given]:
+        refuse(f"{', '.join(idle)}: needs --case CASE.yaml, the case of the experiment")
+    if curves > 1 and typed["indenter"] is None:
+        refuse(
+            f"{curves} tables: give --indenter, such as 'sphere 5 um', to fit each as an "
+            "indentation, or --case CASE.yaml, the case of the experiment, to fit them together"
+        )
+    if curves > 1 and typed["section"] is not None:
+        refuse("--yaml: goes with one table; several curves give a table (--table)")
+    if curves == 1 and typed["table"] is not None:
+        refuse("--table: goes with several curves; one gives a section of a case (--yaml)")
 
 
 def _arguments(typed: Mapping[str, Any]) -> dict[str, Any]:

@@ -41,6 +41,7 @@ from viscontact.drawing.matplotlib.histories.steady_motion import (
 )
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
+from viscontact.drawing.matplotlib.materials.curve_fits import curve_fits
 from viscontact.drawing.matplotlib.materials.fitted import (
     fitted_indentation,
     fitted_records,
@@ -109,6 +110,7 @@ __all__ = [
     "contact_spots",
     "creep",
     "creep_curve",
+    "curve_fits",
     "deformed_surface",
     "draw_indenter",
     "draw_load",

@@ -173,8 +173,8 @@ def _table(first: Mapping[str, Any], last: Mapping[str, Any]) -> list[dict[str, 
     over = "speed" if "speed" in last else "time"
     numbers = {
         name: (over, np.array([_number(line.get(name)) for line in (first, last)]))
-        for name in SCALARS
-        if name != "outcome"
+        for name, each in SCALARS.items()
+        if name != "outcome" and (name in last or not each.per_length_of)
     }
     return [
         {**{"name": row.name, "title": row.title, "unit": row.unit, "start": row.first},

@@ -1,0 +1,130 @@
+"""Fit of many force curves or indentation records: one table, figures, and what failed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+from viscontact.cli.material import fit_kinds
+from viscontact.cli.material.fit_options import FitArguments
+from viscontact.cli.material.fit_report import DeferredFigure, draw_fit
+from viscontact.cli.terminal.messages import put, refuse, say
+from viscontact.cli.terminal.progress import counted
+from viscontact.identification import (
+    IndentationFit,
+    IndentationRecord,
+    find_contact,
+    read_force_curve,
+)
+from viscontact.identification.curve_batch import CurveFits, fit_each
+from viscontact.identification.instrument_curves import is_instrument_file, split_number
+from viscontact.studies.executors.executor_choice import chosen_workers
+from viscontact.tables import read_table
+
+#: Table of the fits where none is named.
+TABLE = Path("fits.csv")
+#: Quantities of indentations.
+_COLUMNS = ("force", "approach", "position", "deflection", "signal")
+#: Most failures that are printed, and curves from which on processes are started.
+_SHOWN, _WORTH_PROCESSES = 10, 8
+
+
+def curve_files(typed: Sequence[Path]) -> list[Path]:
+    """Return files, those of directories, and those that a pattern names."""
+    found: list[Path] = []
+    for path in typed:
+        if path.is_dir():
+            inside = sorted(each for each in path.iterdir() if _is_curve(each))
+            if not inside:
+                refuse(f"{path}: the directory holds no CSV table and no file of an instrument")
+            found += inside
+        elif "*" in path.name and not path.exists():  # a shell of Windows leaves patterns
+            matches = sorted(path.parent.glob(path.name))
+            if not matches:
+                refuse(f"{path}: no file has such a name")
+            found += matches
+        else:
+            found.append(path)
+    return found
+
+
+def _is_curve(path: Path) -> bool:
+    return path.is_file() and (path.suffix.lower() == ".csv" or is_instrument_file(path))
+
+
+def report_fits(
+    files: Sequence[Path],
+    arguments: FitArguments,
+    output: Path | None,
+    table: Path | None,
+    *,
+    width: str | float | None = None,
+    jobs: int | None = None,
+    quiet: bool = False,
+) -> None:
+    """Fit each of many curves; print a summary, and write a table and a figure."""
+    names = _names(files)
+    curves = dict(zip(names, files, strict=True))
+    workers = jobs if len(files) >= _WORTH_PROCESSES else 1
+    lines = "{done} of {total} curves, about {left:.0f} s left"
+    with (
+        chosen_workers(workers, most=len(files)) as chosen,
+        counted("curves", quiet=quiet, line=lines) as progress,
+    ):
+        fit = partial(fitted_curve, arguments)
+        found = fit_each(fit, curves, executor=chosen.executor, progress=progress)
+    _print_failures(found)
+    if not found.fitted:
+        refuse(f"none of {len(files)} curves could be fitted")
+    put(repr(found))
+    path = table or TABLE
+    try:
+        found.write(path)
+    except OSError as error:
+        refuse(f"{path}: {error.strerror or error}")
+    put(path)
+    if output is not None:
+        draw_fit(DeferredFigure("curve_fits", found), output, width)
+
+
+def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit:
+    """Fit of the curve or record in a file; ValueError or OSError where there is none."""
+    if is_instrument_file(split_number(file)[0]):
+        fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
+        indenter = arguments.indenter_of(file.name)
+        curve = read_force_curve(file, spring_constant=arguments.stiffness())
+    else:
+        table = read_table(file, arguments.columns, wanted=_COLUMNS)
+        indenter = arguments.indenter_of(file.name)
+        if "force" in table and "approach" in table:
+            record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
+            return arguments.fitted(record)
+        if "position" not in table:
+            raise ValueError(
+                f"{file.name}: several tables are fitted one by one if they are indentations, with "
+                "columns time, and approach and force, or position and deflection; others belong "
+                "to a case (--case)"
+            )
+        curve = arguments.force_curve(table)
+    options = {} if arguments.reach is None else {"reach": arguments.reach}
+    return arguments.fitted(find_contact(curve, indenter, **options).record())
+
+
+def _names(files: Sequence[Path]) -> list[str]:
+    """Names of the files, with their directories where these alone tell them apart."""
+    short = [each.name for each in files]
+    names = short if len(set(short)) == len(short) else [str(each) for each in files]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        refuse(f"{twice}: is named twice; name each curve once")
+    return names
+
+
+def _print_failures(found: CurveFits) -> None:
+    """Print the first curves that have no fit, with the reasons."""
+    for each in found.failed[:_SHOWN]:
+        reason = each.failure.removeprefix("fit_indentation: ")
+        say(reason if reason.startswith(each.name) else f"{each.name}: {reason}")
+    if (left := len(found.failed) - _SHOWN) > 0:
+        say(f"and {left} more have no fit; the table has the reasons")

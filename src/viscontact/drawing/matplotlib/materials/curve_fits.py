@@ -1,0 +1,98 @@
+"""Distribution of what many curves gave."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from viscontact.backend.arrays import Floats
+from viscontact.drawing.matplotlib.layout import style
+from viscontact.drawing.matplotlib.layout.log_ticks import plain_log_ticks
+from viscontact.drawing.matplotlib.layout.page import Width, page_width
+from viscontact.identification.curve_batch import CurveFits
+from viscontact.units.formatting import format_quantity, readable_unit
+
+#: Ratio of the values beyond which their axis is logarithmic.
+_WIDE = 10.0
+#: Least and most bars of a histogram, and parts of the values that it may leave out at either end.
+_BARS, _OUTLIERS = (5, 40), 0.005
+
+
+def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
+    """Draw histograms of the parameters that were fitted to many curves.
+
+    Parameters
+    ----------
+    fits : CurveFits
+        From `viscontact.identification.fit_each`.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A panel for each parameter, over a logarithmic axis where the values differ by more than a
+        factor of ten; a line marks the median, a band half of the curves.
+
+    Raises
+    ------
+    ValueError
+        If no curve has a fit.
+
+    Examples
+    --------
+    >>> from viscontact.identification.curve_batch import FittedCurve
+    >>> curves = tuple(
+    ...     FittedCurve(str(G), {"shear_modulus": G}, {}, {"shear_modulus": "Pa"})
+    ...     for G in (1e3, 2e3, 2.5e3, 4e3)
+    ... )
+    >>> [axes.get_xlabel() for axes in curve_fits(CurveFits(curves)).axes]
+    ['Shear modulus [kPa]']
+    """
+    names = fits.parameters
+    if not names:
+        raise ValueError("curve_fits: no curve has a fit")
+    across = min(len(names), 2)
+    rows = -(-len(names) // across)
+    wide = page_width(width, style.TWO_COLUMNS if across > 1 else style.ONE_COLUMN)
+    figure = style.new_figure(wide, 2.4 * rows)
+    panels = list(figure.subplots(rows, across, squeeze=False).flat)
+    for axes, name in zip(panels, names, strict=False):
+        values = fits.values_of(name)
+        _histogram(axes, name, fits.unit_of(name), values[np.isfinite(values)])
+    for unused in panels[len(names) :]:
+        unused.remove()
+    return figure
+
+
+def _histogram(axes: Axes, name: str, si: str, values: Floats) -> None:
+    """Histogram of a parameter [SI] with its median and its quartiles."""
+    style.dress(axes)
+    low, middle, high = np.percentile(values, (25.0, 50.0, 75.0)).tolist()
+    unit = readable_unit(si, middle)
+    first, last = np.percentile(values, (100 * _OUTLIERS, 100 - 100 * _OUTLIERS)).tolist()
+    is_wide = first > 0 and last > _WIDE * first
+    scaled = np.log10(values) if is_wide else values
+    start, end = (math.log10(each) if is_wide else each for each in (first, last))
+    count = int(np.clip(np.sqrt(values.size) * 1.5, *_BARS))
+    if end > start:
+        edges = np.linspace(start, end, count + 1)
+    else:
+        edges = start + np.array([-0.05, 0.05]) * max(abs(start), 1e-30)
+    inside = np.clip(scaled, edges[0], edges[-1])
+    bars, _ = np.histogram(inside, edges)
+    places = unit(10.0**edges if is_wide else edges)
+    axes.axvspan(*unit([low, high]).tolist(), color=style.SHADE, lw=0)
+    axes.bar(places[:-1], bars, np.diff(places), align="edge", color=style.LINE, alpha=0.85)
+    axes.axvline(float(unit(middle)), color=style.INK, lw=1.2)
+    if is_wide:
+        axes.set_xscale("log")
+        plain_log_ticks(axes.xaxis)
+    label = name.replace("_", " ").replace("youngs", "Young's")
+    axes.set_xlabel(unit.label(label[0].upper() + label[1:]))
+    axes.set_ylabel("Curves")
+    text = f"median {format_quantity(middle, si, 3)}, {values.size} curves"
+    style.add_heading(axes, text)

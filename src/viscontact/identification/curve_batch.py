@@ -1,0 +1,233 @@
+"""Fits of one law to many curves: values, intervals, and why some curves have none."""
+
+from __future__ import annotations
+
+import csv
+import math
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.laws import Elastic
+from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.units.display import Displayable
+from viscontact.units.formatting import column_heading, format_quantity
+
+CurveT = TypeVar("CurveT")
+
+#: Parts of the curves whose values the summary states, beside the median.
+QUARTILES = (25.0, 50.0, 75.0)
+
+
+@dataclass(frozen=True)
+class FittedCurve:
+    """Fit of one curve of many, in numbers, or the reason why there is none."""
+
+    name: str
+    values: Mapping[str, float]  # parameters of the law, SI
+    intervals: Mapping[str, tuple[float, float]]
+    units: Mapping[str, str]
+    residual: float = math.nan  # root mean square over the largest value [-]
+    indentation: float = math.nan  # largest approach [m]
+    force: float = math.nan  # largest force [N]
+    warning: str = ""
+    failure: str = ""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CurveFits(Displayable):
+    """Laws fitted to many curves, of `fit_each`.
+
+    Attributes
+    ----------
+    curves : tuple of FittedCurve
+        Each curve in the order in which it was given: ``name``, ``values`` and ``intervals`` of the
+        law's parameters [SI], ``units``, ``residual``, ``indentation`` [m], ``force`` [N],
+        ``warning``, and ``failure``, which is empty for a curve that was fitted.
+
+    Examples
+    --------
+    >>> good = FittedCurve("a", {"shear_modulus": 2e3}, {"shear_modulus": (1e3, 3e3)},
+    ...                    {"shear_modulus": "Pa"})
+    >>> bad = FittedCurve("b", {}, {}, {}, failure="no contact")
+    >>> fits = CurveFits((good, bad))
+    >>> fits.parameters, fits.values_of("shear_modulus").tolist(), len(fits.failed)
+    (('shear_modulus',), [2000.0], 1)
+    """
+
+    curves: tuple[FittedCurve, ...]
+
+    @property
+    def fitted(self) -> tuple[FittedCurve, ...]:
+        """Curves that have a fit."""
+        return tuple(each for each in self.curves if not each.failure)
+
+    @property
+    def failed(self) -> tuple[FittedCurve, ...]:
+        """Curves that have none."""
+        return tuple(each for each in self.curves if each.failure)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return tuple(dict.fromkeys(name for each in self.fitted for name in each.values))
+
+    def unit_of(self, parameter: str) -> str:
+        """SI unit of a parameter; "1" without unit.
+
+        Parameters
+        ----------
+        parameter : str
+            Its name.
+        """
+        return (
+            next(each.units[parameter] for each in self.fitted if parameter in each.values) or "1"
+        )
+
+    def values_of(self, parameter: str) -> Floats:
+        """Values of a parameter over the fitted curves, in their order.
+
+        Parameters
+        ----------
+        parameter : str
+            Its name.
+
+        Returns
+        -------
+        ndarray
+            In SI units; NaN where a curve does not have it.
+        """
+        return np.array([each.values.get(parameter, math.nan) for each in self.fitted])
+
+    def write(self, path: str | Path) -> None:
+        """Write a table as CSV: a row for each curve, in SI units, with intervals.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, which is replaced.
+        """
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerows(self._rows())
+
+    def _rows(self) -> Iterator[list[object]]:
+        heads: list[object] = ["curve"]
+        for name in self.parameters:
+            unit = self.unit_of(name)
+            heads += [column_heading(f"{name}{end}", unit) for end in ("", " low", " high")]
+        yield [*heads, "residual", "indentation [m]", "force [N]", "warning", "failure"]
+        for each in self.curves:
+            numbers: list[float] = []
+            for name in self.parameters:
+                low, high = each.intervals.get(name, (math.nan, math.nan))
+                numbers += [each.values.get(name, math.nan), low, high]
+            numbers += [each.residual, each.indentation, each.force]
+            written = ["" if math.isnan(number) else f"{number:.6g}" for number in numbers]
+            yield [each.name, *written, each.warning, each.failure]
+
+    def __repr__(self) -> str:
+        total, found = len(self.curves), len(self.fitted)
+        lines = [f"CurveFits: {found} of {total} curves"]
+        for name in self.parameters:
+            unit = self.unit_of(name)
+            values = self.values_of(name)
+            low, middle, high = np.percentile(values[np.isfinite(values)], QUARTILES).tolist()
+            texts = [format_quantity(each, unit, 4) for each in (middle, low, high)]
+            lines.append("     {} = {} (half of the curves: {} to {})".format(name, *texts))
+        return "\n".join(lines)
+
+
+def fit_each(
+    fit: Callable[[CurveT], IndentationFit],
+    curves: Mapping[str, CurveT],
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> CurveFits:
+    """Fit each of many curves; one that cannot be fitted is kept with the reason.
+
+    Parameters
+    ----------
+    fit : callable
+        Returns the fit of a curve, as `fit_indentation` does; a ValueError or OSError is the reason
+        why it has none. With an executor of processes a function of a module.
+    curves : mapping of str
+        The curves by name, or what `fit` reads them from, such as files.
+    executor : concurrent.futures.Executor, optional
+        Computes the fits, in place of this thread.
+    progress : callable, optional
+        Called after each curve with the number of finished ones and that of all.
+
+    Returns
+    -------
+    CurveFits
+        In the order of the curves.
+
+    Raises
+    ------
+    ValueError
+        If there are no curves.
+
+    Examples
+    --------
+    >>> from viscontact.identification import IndentationRecord, fit_indentation
+    >>> from viscontact.bodies.indenters import Sphere
+    >>> t, d = np.linspace(0.0, 1.0, 11), 1e-6 * np.linspace(0.0, 1.0, 11)
+    >>> records = {
+    ...     f"curve {G:.0f}": IndentationRecord(Sphere(5e-6), t, d, 16 / 3 * G * 5e-6**0.5 * d**1.5)
+    ...     for G in (1e3, 2e3, 4e3)
+    ... }
+    >>> fits = fit_each(lambda each: fit_indentation(each, "elastic", poisson_ratio=0.5), records)
+    >>> fits.values_of("shear_modulus").round().tolist()
+    [1000.0, 2000.0, 4000.0]
+    """
+    if not curves:
+        raise ValueError("fit_each: needs at least one curve")
+    pending: list[Future[FittedCurve]] = []
+    if executor is not None:
+        pending = [executor.submit(_fitted, fit, name, each) for name, each in curves.items()]
+    found = []
+    for number, (name, curve) in enumerate(curves.items()):
+        found.append(pending[number].result() if pending else _fitted(fit, name, curve))
+        if progress is not None:
+            progress(len(found), len(curves))
+    return CurveFits(tuple(found))
+
+
+def _fitted(fit: Callable[[CurveT], IndentationFit], name: str, curve: CurveT) -> FittedCurve:
+    """Fit of one curve in numbers."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", AccuracyWarning)
+        try:
+            found = fit(curve)
+        except (ValueError, OSError) as error:
+            return FittedCurve(name, {}, {}, {}, failure=str(error))
+    told = [str(each.message) for each in caught if issubclass(each.category, AccuracyWarning)]
+    values, intervals = dict(found.parameters), dict(found.intervals)
+    units = dict(zip(found.parameters, found.units, strict=True))
+    ratio = found.material.poisson_ratio
+    if isinstance(found.law, Elastic) and ratio is not None:
+        factor = 2 * (1 + float(ratio))
+        values["youngs_modulus"] = factor * values["shear_modulus"]
+        low, high = intervals["shear_modulus"]
+        intervals["youngs_modulus"] = (factor * low, factor * high)
+        units["youngs_modulus"] = "Pa"
+    fitted = found.record.times <= found.until
+    return FittedCurve(
+        name,
+        values,
+        intervals,
+        units,
+        found.residual,
+        float(found.record.approach[fitted].max()),
+        float(found.record.force[fitted].max()),
+        " | ".join(told),
+    )
