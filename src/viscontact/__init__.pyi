@@ -100,6 +100,7 @@ from .identification import find_contact as find_contact
 from .identification import fit_adhesion as fit_adhesion
 from .identification import fit_creep as fit_creep
 from .identification import fit_dynamic as fit_dynamic
+from .identification import fit_each as fit_each
 from .identification import fit_indentation as fit_indentation
 from .identification import fit_master_curve as fit_master_curve
 from .identification import fit_relaxation as fit_relaxation

@@ -251,7 +251,6 @@ MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "tim
         ("material", {"law": "relaxation-series"}, "write e.g. 'moduli: [50 MPa, 25 MPa]'"),
         ("material", {"law": "relaxation-series"}, "write e.g. 'data: uniaxial'"),
         ("indenter", {"shape": "pyramid", "half_angle": "35 deg"}, "write e.g. 'faces: 4'"),
-        ("load", {"kind": "history", "sentences": "sink to 1 um"}, "approach to 1 um in 0.5 s"),
         ("material", SERIES | {"Shore": 60}, "Shore: a hardness does not determine how a material"),
         ("material", SERIES | {"youngs_modulus": "1 GPa"}, "'instant', its inverse 1/E, with data"),
         ("material", CARD | {"youngs_modulus": "1 GPa"}, "It goes with law: elastic or maxwell"),

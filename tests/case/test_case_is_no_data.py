@@ -23,7 +23,7 @@ def _array() -> bytes:
 def test_a_height_map_is_no_case(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "case.yaml"
     path.write_bytes(content)
-    with pytest.raises(CaseError, match=r"no case file|not UTF-8|UTF-8") as refused:
+    with pytest.raises(CaseError, match=r"no case file|not a text file") as refused:
         read_case(path)
     if not content.startswith(b"\x93"):
         assert "as a table or a height map does" in str(refused.value)

@@ -225,7 +225,8 @@ def test_error_in_layers_is_at_its_key(change: Any, expected: str, tmp_path: Pat
 def test_layers_without_base_are_refused(tmp_path: Path) -> None:
     found = problem(tmp_path, {"layers": COVER["layers"]})
     assert (
-        found == "material.base: is missing; material beneath the layers, infinitely deep, or rigid"
+        found == "material.base: is missing; material beneath the layers, infinitely deep, or "
+        "rigid; write e.g. 'base: rigid'"
     )
 
 

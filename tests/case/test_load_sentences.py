@@ -41,6 +41,11 @@ def points(*texts: str) -> list[tuple[float, float]]:
     return list(zip(times, levels, strict=True))
 
 
+def test_bodies_may_approach() -> None:
+    assert course("approach to 1 um in 0.5 s") == course("ramp to 1 um in 0.5 s")
+    assert course("approach to 1 um in 0.5 s").control == "approach"
+
+
 # --- possible sentences ------------------------------------------------------------------------
 
 

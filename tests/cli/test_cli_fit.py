@@ -345,7 +345,7 @@ def test_a_force_curve_gives_its_contact_point_and_the_law(last, scale, more, tm
     printed = capsys.readouterr().out
     assert "ContactPoint: at 3 µm" in printed
     assert "slope of 0.002" in printed
-    assert "shear_modulus: 0.005 MPa" in printed  # (1 - nu)/2 of 20 kPa
+    assert "shear_modulus: 5000 Pa" in printed  # (1 - nu)/2 of 20 kPa
     assert (tmp_path / "fit.png").stat().st_size > 10_000
 
 
@@ -372,7 +372,7 @@ def test_part_reach_and_paraboloid_of_a_force_curve_are_chosen(tmp_path, capsys)
     command = ["fit", str(path), *tip, "--indenter", "paraboloid 5 um"]
     assert main([*command, "--until", "3.2 s", "--reach", "0.5"]) == 0
     printed = capsys.readouterr().out
-    assert "shear_modulus: 0.005 MPa" in printed
+    assert "shear_modulus: 5000 Pa" in printed
     assert "to 153 rows over 3.2 s" in printed
     assert "contact at 3 µm" in printed
     assert main([*command, "--until", "the end"]) == 2

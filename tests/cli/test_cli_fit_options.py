@@ -53,13 +53,14 @@ USES = {
     "indenter": (["sphere 5 um"], INDENTATIONS),
     "until": (["hold"], INDENTATIONS),
     "law": (["zener"], INDENTATIONS),
+    "reference-time": (["1 s"], INDENTATIONS),
     "reach": (["0.5"], CURVES),
     "spring-constant": (["0.1 N/m"], CURVES),
     "sensitivity": (["50 nm/V"], {"voltage"}),
 }
 #: Options that apply to all tables; the reader of tables refuses a stress of no creep test.
 OF_ALL = {"files", "poisson_ratio", "bulk_modulus", "terms", "columns", "stress"}
-OF_RESULTS = {"output", "width", "section"}
+OF_RESULTS = {"output", "width", "section", "table"}
 OF_CASES = {
     *("case", "change", "drive", "contact_point", "machine_stiffness", "settings", "rows"),
     *("runs", "report", "jobs", "scheduler", "resume", "overwrite", "quiet"),

@@ -143,7 +143,7 @@ def _refuse_data(text: str) -> None:
     start = text[:_LOOKED_AT]
     first = next((line for line in start.splitlines() if line.strip()), "")
     numbers = _NUMBERS.fullmatch(first.strip()) is not None
-    if "NUMPY" in start[:8] or "\0" in start or numbers:
+    if "NUMPY" in start[:8] or numbers:
         raise SourceError(
             "is no case file, but holds numbers, as a table or a height map does; a case names it "
             "by a key 'file', and on the page it is given by Upload"

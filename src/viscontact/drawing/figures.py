@@ -93,7 +93,7 @@ TABLE = (
     _fields(
         "contact-outline",
         compare="compare_contact_outlines",
-        reported=Reported("pressure", "Outline of the contact", "outlines"),
+        reported=Reported("pressure", "Outline of the contact", "outlines", of_use="has_outline"),
     ),
     FigureEntry("contact-area", takes=("times", "theory")),
     FigureEntry("area-pressure", takes=("times", "theory")),

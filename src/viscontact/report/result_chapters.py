@@ -174,11 +174,18 @@ def _facts(ds: xr.Dataset) -> Element:
     )
 
 
+#: Relative change below which a value is the same at all speeds.
+_CONSTANT = 1e-9
+
+
 def _fact(ds: xr.Dataset, name: str) -> tuple[int, str]:
     """Row of a result at the head of the page, and its place: the end, or the worst speed."""
     axis = run_axis(ds)
     if not axis.is_history:
-        index = int(np.nan_to_num(np.abs(ds[name].values)).argmax())
+        sizes = np.nan_to_num(np.abs(ds[name].values))
+        index = int(sizes.argmax())
+        if ds.sizes["speed"] > 1 and np.ptp(sizes) <= _CONSTANT * sizes[index]:
+            return index, ""
         place = axis.place(float(ds["speed"][index]))
         return index, f" at {place}" if ds.sizes["speed"] == 1 else f", largest at {place}"
     area = ds["contact_area"].values

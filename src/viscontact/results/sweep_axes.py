@@ -32,4 +32,5 @@ def varied_keys(ds: xr.Dataset) -> list[str]:
 def key_label(key: str) -> str:
     """Key in words, for axes and headings of tables."""
     words = " ".join(re.findall(r"[^\W_]+", key))
+    words = re.sub(r"(?:material )?layers (?=\d)", "layer ", words)
     return words[:1].upper() + words[1:]

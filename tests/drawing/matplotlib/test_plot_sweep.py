@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import viscontact as vc
+from closeness import close_to
 from synthetic_sweeps import hertz_sweep, listed
+from viscontact.drawing.content.key_axis import key_axis
 from viscontact.drawing.content.look import RED
 from viscontact.plot import response
 from viscontact.results.largest_values import chief_scalars, compared_scalars, largest_values
 from viscontact.results.sweep_axes import varied_keys
+from viscontact.studies.sweep.axes import coordinate
 
 FORCES = ([1e3, 2e3, 8e3], "N")
 RADII = ([0.02, 0.01], "m")
@@ -174,3 +178,21 @@ def test_key_with_a_single_value_is_no_axis() -> None:
     axes = panel(response(ds), "Approach")
     assert axes.get_xlabel() == "Load force [kN]"
     np.testing.assert_allclose(axes.lines[0].get_ydata(), 1e3 * ds.approach[0, :, 0, 1])
+
+
+@pytest.mark.parametrize(
+    ("texts", "label", "places"),
+    [
+        (["20degC", "40 degC", "80degC"], "Temperature [°C]", [20.0, 40.0, 80.0]),
+        (["5 mm", "50mm", "100 mm"], "Temperature [mm]", [5.0, 50.0, 100.0]),
+        (["50 mm", "1 m"], "Temperature [m]", [0.05, 1.0]),  # of two units, the readable one
+        (["1", "2"], "Temperature", [1.0, 2.0]),
+    ],
+)
+def test_axis_of_a_key_has_the_unit_that_was_typed(
+    texts: list[str], label: str, places: list[float]
+) -> None:
+    column = coordinate("temperature", "run", texts)
+    axis = key_axis(xr.Dataset(coords={"temperature": column}), "temperature")
+    assert axis.label == label
+    assert axis.unit(column.values) == close_to(places, rel=1e-9)

@@ -229,7 +229,7 @@ def _forms(rows: Iterable[tuple[str, str]]) -> tuple[Form, ...]:
     return tuple(Form(kind, words) for kind, words in rows)
 
 
-_GO, _BACK = "ramp|load|press|move|go|approach|advance", "unload|withdraw|retract"
+_GO, _BACK = "ramp|load|press|move|go|approach", "unload|withdraw|retract"
 _HEAT, _COOL = "heat|warm", "cool|chill"
 _STILL = "hold|wait|rest|dwell|pause"
 
@@ -285,7 +285,6 @@ TEMPERATURE_FORMS = _forms(
 #: Examples for error messages, of loads and of temperatures.
 EXAMPLES = (
     "ramp to 10 kN in 1 s (or: at 2 kN/s)",
-    "approach to 1 um in 0.5 s (a length prescribes the approach)",
     "step to 5 kN (or: by 1 kN)",
     "hold for 240 s",
     "hold until 300 s",

@@ -216,8 +216,7 @@ class TableLaw(FromFile):
         if len(sets) > 1:
             name = table.source.name
             raise ValueError(
-                f"{name} has {len(sets)} sets of values; write which of them is meant, as in "
-                f"'set: 1': {_set_list(sets)}; or shift all "
+                f"{name} has {len(sets)} sets; say which with set: {_set_list(sets)}; or shift all "
                 f"to one temperature by `viscontact fit {name} --yaml law.yaml`, and give file: "
                 "law.yaml in place of law: table"
             )

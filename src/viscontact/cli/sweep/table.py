@@ -144,7 +144,7 @@ def _value_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:
 
 def _error_text(found: _RunValues) -> str:
     """The largest error, and of what."""
-    return f"{format_percent(found.error)}\n{found.uncertain.replace('_', ' ')}"
+    return f"{format_percent(found.error)} {found.uncertain.replace('_', ' ')}"
 
 
 def _verdict_columns(found: Sequence[_RunValues | None]) -> Iterator[_RunColumn]:

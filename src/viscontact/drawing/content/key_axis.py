@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -10,7 +12,10 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import Axis
 from viscontact.results.sweep_axes import key_label
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
+from viscontact.units.parsing import parse_any_quantity
 
+#: Units that are printed otherwise than they are typed.
+_PRINTED = {"degC": "°C", "degF": "°F", "deg": "°"}
 #: Least ratio of the largest to the least value on a logarithmic axis.
 _DECADE = 9.0
 
@@ -21,7 +26,7 @@ def key_axis(ds: xr.Dataset, key: str) -> Axis:
         texts = tuple(dict.fromkeys(map(str, ds[key].values.ravel())))
         return Axis(key_label(key), ReadableUnit("", 1.0), texts=texts)
     known = np.unique(ds[key].values[np.isfinite(ds[key].values)])
-    unit = readable_unit(ds[key].attrs.get("units", "1"), known)
+    unit = _unit_of(ds, key, known)
     return Axis(key_label(key), unit, scale="log" if _suits_logarithm(known) else "linear")
 
 
@@ -37,8 +42,21 @@ def key_labels(ds: xr.Dataset, key: str) -> list[str]:
     values = ds[key].values
     if not is_number(ds, key):
         return [str(value) for value in values]
-    unit = readable_unit(ds[key].attrs.get("units", "1"), values)
+    unit = _unit_of(ds, key, values)
     return [f"{format_compact(float(value))} {unit.symbol}".strip() for value in unit(values)]
+
+
+def _unit_of(ds: xr.Dataset, key: str, values: Floats) -> ReadableUnit:
+    """Unit in which all values of a key were typed, otherwise the one that reads best."""
+    typed, si = ds[key].attrs.get("typed_unit"), str(ds[key].attrs.get("units", "1"))
+    if typed and values.size:
+        with suppress(ValueError):
+            (zero, own), (one, _) = (parse_any_quantity(f"{n} {typed}") for n in (0, 1))
+            if own == si:
+                return ReadableUnit(
+                    _PRINTED.get(typed, typed.replace("um", "µm")), one - zero, zero
+                )
+    return readable_unit(si, values)
 
 
 def _suits_logarithm(values: Floats) -> bool:

@@ -24,6 +24,11 @@ def has_line_load(ds: xr.Dataset) -> bool:
     return is_long(ds) and "pressure" in ds and not is_line(ds)
 
 
+def has_outline(ds: xr.Dataset) -> bool:
+    """True for a contact whose outline is more than two straight lines."""
+    return not is_line(ds)
+
+
 def has_loops(ds: xr.Dataset) -> bool:
     """True for a run with loops of force over approach, or of resistance over position."""
     return bool(loops_of(ds))
@@ -53,7 +58,7 @@ def has_shift(ds: xr.Dataset) -> bool:
 TESTS: dict[str, Callable[[xr.Dataset], bool]] = {
     each.__name__: each
     for each in (
-        *(has_line_load, has_loops, has_force_curve),
+        *(has_line_load, has_outline, has_loops, has_force_curve),
         *(has_slip, has_stored_slip, has_shift),
     )
 }

@@ -57,7 +57,24 @@ def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAP
     snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
     borders = snapshots[0].borders() if any(snapshots[0].periodic) else None
-    return window_over(boxes, borders, slender=slender)
+    found = window_over(boxes, borders, slender=slender)
+    along = _line_axis(snapshots[0])
+    if along is None:
+        return found
+    # A part of a strip that goes on, as long as it is wide, in its true shape.
+    x, y = (found.x, found.y) if along == "x" else (found.y, found.x)
+    half, middle = min(y[1] - y[0], x[1] - x[0]) / 2, (x[0] + x[1]) / 2
+    part = middle - half, middle + half
+    return Window(part, y, 1.0) if along == "x" else Window(y, part, 1.0)
+
+
+def _line_axis(snapshot: Snapshot) -> str | None:
+    """Axis of a line contact, along which nothing varies; None of any other contact."""
+    along_x, along_y = snapshot.periodic
+    if along_x == along_y:
+        return None
+    lines = snapshot.pressure if along_x else snapshot.pressure.T
+    return ("x" if along_x else "y") if (lines == lines[:1]).all() else None
 
 
 def window_over(

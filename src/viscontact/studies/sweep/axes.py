@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -20,6 +21,8 @@ RUN = "run"
 #: Dimension or coordinate of several case files.
 CASE = "case"
 
+#: Number and unit as they are typed.
+_TYPED = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?P<unit>[^\d±]*)")
 #: Ends of keys of temperature differences, whose degrees have no offset.
 _DIFFERENCES = ("c2", "temperature.amplitude")
 
@@ -78,8 +81,15 @@ def coordinate(key: str, dim: str, texts: Sequence[str]) -> xr.Variable:
     attributes: dict[str, Any] = {"long_name": key}
     with suppress(ValueError):
         numbers, units = _numbers(key, texts)
-        return xr.Variable(dim, numbers, {"units": units, **attributes})
+        typed = {"typed_unit": symbol} if (symbol := _typed_unit(texts)) else {}
+        return xr.Variable(dim, numbers, {"units": units, **attributes, **typed})
     return xr.Variable(dim, np.array(texts, dtype=np.str_), attributes)
+
+
+def _typed_unit(texts: Sequence[str]) -> str:
+    """Unit that all quantities are typed in, as ``mm``; empty where they differ or have none."""
+    found = {match["unit"].strip() for text in texts if text and (match := _TYPED.fullmatch(text))}
+    return found.pop() if len(found) == 1 else ""
 
 
 def _numbers(key: str, texts: Sequence[str]) -> tuple[Floats, str]:

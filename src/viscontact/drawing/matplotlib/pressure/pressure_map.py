@@ -13,6 +13,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats
@@ -146,6 +147,9 @@ def draw_contours(
     if not shown.snapshot.touching:
         return None
     outline = rim_path(window.unit(curve) for curve in shown.outline)
+    # It replaces the border of the axes, beyond which a period goes on.
+    (x_low, x_high), (y_low, y_high) = (window.unit(ends).tolist() for ends in (window.x, window.y))
+    outline = outline.clip_to_bbox(Bbox.from_extents(x_low, y_low, x_high, y_high))
     # Contours are drawn between the centres of cells, so half a cell short of the last ones.
     wide = beyond_period(shown.snapshot).with_border(1)
     x, y = window.unit(wide.x), window.unit(wide.y)

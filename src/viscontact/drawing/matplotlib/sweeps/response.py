@@ -28,6 +28,8 @@ from viscontact.units.formatting import readable_unit
 
 #: Width of a letter of a label [inch].
 _LETTER = 0.068
+#: Width beside the axis of a panel, of the ticks and the label to its left [inch].
+_BESIDE = 0.5
 #: Most contours that are drawn.
 _CONTOURS = 12
 
@@ -116,7 +118,7 @@ def _points(swept: SweptKeys, across: float) -> Figure:
 
 def _letters(across: float, columns: int = 1) -> int:
     """Number of letters in a line below one of some panels [inch]."""
-    return int(across / columns / _LETTER)
+    return int((across / columns - _BESIDE) / _LETTER)
 
 
 def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
