@@ -746,10 +746,12 @@ def test_without_matplotlib_a_line_says_what_to_install(
     monkeypatch.delattr("viscontact.drawing.matplotlib", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    assert main(["plot", str(finished), "history"]) == 2
-    message = capsys.readouterr().err
-    assert "pip install 'viscontact[plot]'" in message
-    assert len(message.splitlines()) == 1
+    for command in (["plot", str(finished), "history"], ["demo"]):
+        assert main(command) == 2
+        message = capsys.readouterr().err
+        assert "pip install 'viscontact[plot]'" in message
+        assert len(message.splitlines()) == 1
+    assert not Path("viscontact-demo").exists()  # refused before the run
 
 
 def test_compare_overlays_runs_and_refuses_a_single_one(

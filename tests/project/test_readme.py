@@ -129,9 +129,10 @@ def test_times_in_the_readme_are_those_that_were_measured(
     assert shown == close_to(measured, rel=0.02)
 
 
-def test_the_picture_of_the_readme_is_there() -> None:
-    (picture,) = re.findall(r'<img [^>]*src="([^"]+)"', README)
-    assert (ROOT / picture).exists()
+def test_the_pictures_of_the_readme_are_there() -> None:
+    pictures = re.findall(r'<img [^>]*src="([^"]+)"', README)
+    assert len(pictures) == 5
+    assert all((ROOT / picture).exists() for picture in pictures)
 
 
 def test_the_rollers_time_in_the_readme_is_the_one_that_was_measured() -> None:

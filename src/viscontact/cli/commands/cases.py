@@ -51,9 +51,10 @@ def demo(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
     """Press a crowned roller on PMMA for 1000 s and draw the results, in ./viscontact-demo."""
-    from viscontact.cli.results.figures import draw
+    from viscontact.cli.results.figures import draw, plot_package
     from viscontact.cli.run.execution import execute
 
+    plot_package()  # refused before the run where figures cannot be drawn after it
     with as_file(_examples()[DEMO]) as case:
         execute(RunRequest(case, DEMO_DIRECTORY, overwrite=True, quiet=quiet))
     for figure in DEMO_FIGURES:
