@@ -81,7 +81,7 @@ def test_a_record_without_a_cantilever_is_fitted(client: TestClient) -> None:
     found = client.post("/api/fit", json=ASKED | {"file": "record.csv"}).json()
     assert found["contact"] == []
     assert [each["layout"]["meta"]["name"] for each in found["figures"]] == ["fit-loop", "fit-time"]
-    assert found["material"]["shear_modulus"] == "0.005 MPa"
+    assert found["material"]["shear_modulus"] == "5000 Pa"
 
 
 @pytest.mark.slow

@@ -140,8 +140,8 @@ def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> 
     FIGURES[name](long_contact, times=[0.0, 1000.0]).draw_without_rendering()
 
 
-#: Comparisons that put runs side by side or draw outlines, and hold no lines.
-SIDE_BY_SIDE = {"pressure-3d", "pressure-map", "contact-outline"}
+#: Comparisons that put runs side by side or draw outlines, and hold no lines; and of steady motion.
+SIDE_BY_SIDE = {"pressure-3d", "pressure-map", "contact-outline", "friction"}
 
 
 @pytest.mark.parametrize("name", sorted(set(COMPARISONS) - SIDE_BY_SIDE))
