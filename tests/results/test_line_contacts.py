@@ -15,6 +15,7 @@ from closeness import close_to
 from returned import some
 from viscontact.case import read_case
 from viscontact.cli import main
+from viscontact.plot import history
 from viscontact.reference import hertz_line
 from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS, Place, per_length, shown_in
@@ -97,6 +98,19 @@ def test_no_period_is_shown(ds: xr.Dataset, rolling: xr.Dataset) -> None:
             assert not period & set(shown_in(place, result))
     assert "944.1 µm wide under 100 kN/m" in headline(ds)
     assert "dissipation_per_length" in shown_in(Place.FACTS, rolling)
+
+
+def test_history_of_a_moving_line_contact_is_drawn_per_length() -> None:
+    motion = vc.reciprocating(1e-4, 0.02, 1, rolling=True)
+    cylinder, load = vc.Paraboloid(math.inf, 0.03), vc.step(500.0, tilt_y=0.0)
+    times = np.linspace(0.0, 0.02, 9)
+    moved = vc.simulate(cylinder, RUBBER, load, times=times, motion=motion, errors=False)
+    labels = [axes.get_ylabel().replace("\n", " ") for axes in history(moved).axes]
+    assert any(label.startswith("Resistance along y per length [") for label in labels)
+    assert any(label.startswith("Width of the strip [") for label in labels)
+    assert not any(
+        label.startswith(("Contact area", "Peak line load", "Force")) for label in labels
+    )
 
 
 CASE = """

@@ -75,8 +75,10 @@ def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
 
 def needed_variables(run: xr.Dataset) -> list[str]:
     """Names of the scalars that histories need, those by which rounding is found included."""
-    others = ("contact_length", "position_x", "position_y")
-    return [*shown_scalars(run, Place.FIGURE), *(name for name in others if name in run)]
+    shown = shown_scalars(run, Place.FIGURE)
+    others = ["contact_length", "position_x", "position_y", "force"]
+    others += [SCALARS[name].per_length_of for name in shown]
+    return [*shown, *(name for name in dict.fromkeys(others) if name in run and name not in shown)]
 
 
 def load_names(run: xr.Dataset) -> list[str]:

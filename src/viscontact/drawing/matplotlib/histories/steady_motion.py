@@ -116,7 +116,7 @@ def compare_frictions(
     ['1.0 N', '2.0 N']
     """
     if not runs:
-        raise ValueError("friction: needs at least one result")
+        raise ValueError("friction: needs at least one run to compare, got none")
     for name, run in runs.items():
         if "speed" not in run.dims:
             raise ValueError(f"friction: {name} is no result of steady motion")
