@@ -68,7 +68,7 @@ for level, name, side in ((2.0, "DMT", "bottom"), (1.5, "JKR", "top")):
     axes.axhline(level, color="0.6", lw=0.8, ls="--")
     axes.annotate(name, (4, level), ha="right", va=side, color="0.4")
 axes.set(xlabel="Tabor number", ylabel="pull-off force over $\\pi w R$", ylim=(1.4, 2.1))
-axes.legend(frameon=False, loc=(0.6, 0.5))
+axes.legend(frameon=False, loc=(0.49, 0.53))
 
 # %%
 # The check
