@@ -15,8 +15,10 @@ from closeness import close_to
 from returned import some
 from viscontact.case import read_case
 from viscontact.cli import main
+from viscontact.drawing.content.map import maps_at
 from viscontact.plot import history
 from viscontact.reference import hertz_line
+from viscontact.report.page import report_page
 from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS, Place, per_length, shown_in
 
@@ -111,6 +113,17 @@ def test_history_of_a_moving_line_contact_is_drawn_per_length() -> None:
     assert not any(
         label.startswith(("Contact area", "Peak line load", "Force")) for label in labels
     )
+
+
+def test_report_of_an_automatic_grid_shows_a_strip_in_its_true_shape() -> None:
+    cylinder, load = vc.Paraboloid(math.inf, RADIUS), vc.step(LINE_LOAD)
+    pressed = vc.simulate(cylinder, PMMA, load, times=[0.0, 1.0], errors=False)
+    maps = maps_at(pressed, None, "pressure-map")
+    assert np.ptp(maps.window.x) == close_to(np.ptp(maps.window.y))
+    assert np.nanmax(maps.cells(0, 100)) == close_to(float(pressed.peak_pressure[-1]), rel=1e-6)
+    page = report_page(pressed)
+    assert "Width of the strip" in page
+    assert "Contact area" not in page
 
 
 CASE = """

@@ -245,4 +245,7 @@ def _averaged(values: Floats, stride: int, axis: int = 0) -> Floats:
 
 def _slice_between(positions: Floats, limits: tuple[float, float]) -> slice:
     within = np.flatnonzero((positions >= limits[0]) & (positions <= limits[1]))
+    if not within.size:  # a part of the cells of a line contact, which are long
+        after = int(np.searchsorted(positions, limits[0]))
+        return slice(max(after - 1, 0), min(after + 1, positions.size))
     return slice(int(within[0]), int(within[-1]) + 1)
