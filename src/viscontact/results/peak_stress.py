@@ -12,6 +12,7 @@ from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
+from viscontact.results.stress_source import LOADS
 from viscontact.results.stresses import REACH, section_stresses
 
 #: Number of depths of the search, and of those around the deepest of them.
@@ -57,7 +58,7 @@ def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
 
 
 def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
-    """Pressure of an instant or a speed; ValueError if it is not stored."""
+    """Loads at an instant or a speed; ValueError if they are not stored."""
     axis = run_axis(ds)
     if "pressure" not in ds:
         raise ValueError("no fields are stored (output.fields)")
@@ -68,7 +69,8 @@ def _field_at(ds: xr.Dataset, place: float) -> xr.Dataset:
             f"the largest pressure is at {axis.place(place)}, whose fields are not stored; add it "
             "to output.fields"
         )
-    return ds[["pressure"]].isel({over: stored[:1]}).load()
+    loads = [name for name in LOADS if name in ds]
+    return ds[loads].isel({over: stored[:1]}).load()
 
 
 def _loaded_part(field: xr.Dataset) -> xr.Dataset:
@@ -137,7 +139,7 @@ def _on_planes(field: xr.Dataset, depths: Floats, name: str) -> tuple[Floats, Fl
 
 
 def _coarser(field: xr.Dataset) -> xr.Dataset | None:
-    """Pressure on cells of twice the size; None where a period has an odd number of cells."""
+    """Loads on cells of twice the size; None where a period has an odd number of cells."""
     grid = recorded_grid(field)
     for axis, periodic, count in zip("xy", grid.periodic, grid.shape, strict=True):
         if count == 1:

@@ -1,4 +1,4 @@
-"""Source of the stresses of a result: a body, and the pressures on its surface."""
+"""Source of the stresses of a result: a body, and the loads on its surface."""
 
 from __future__ import annotations
 
@@ -20,7 +20,11 @@ from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stack_waves import interface_depths
 from viscontact.mechanics.halfspace.stress import Stress, stress_on_plane, stress_on_section
 from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
-from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress, StressResponse
+from viscontact.mechanics.halfspace.stress_response import (
+    HalfSpaceShearStress,
+    HalfSpaceStress,
+    StressResponse,
+)
 from viscontact.mechanics.problem.series_body import ANY_TIMES, span_of
 from viscontact.mechanics.problem.stress_history import StressHistory, stress_history
 from viscontact.mechanics.problem.surface import as_elastic
@@ -43,16 +47,20 @@ DEPTHS, PER_LAYER = 61, 13
 #: Relative distance below an interface at which the part beneath it is evaluated.
 BENEATH = 2e-9
 
+#: Fields of the loads on the surface, that of the pressure first.
+LOADS = ("pressure", "traction_x", "traction_y")
+
 
 @dataclass(frozen=True, eq=False)
 class StressSource:
-    """Body of a result, and the stored pressures on its surface."""
+    """Body of a result, and the stored loads on its surface."""
 
     results: xr.Dataset
     responses: tuple[StressResponse, ...]  # the stresses are the sum of theirs
     stack: ElasticStack | None = None  # layers of a body, one of the stacks of `history`
-    history: StressHistory | None = None  # weights of the pressures of the responses
+    history: StressHistory | None = None  # weights of the pressure of each response
     clock: Clock = TIME  # of the creep of the body
+    signs: tuple[float, ...] = (1.0,)  # of the fields `LOADS` that act on the responses
 
     @property
     def splitting_error(self) -> float:
@@ -105,7 +113,7 @@ class StressSource:
                 progress=part_of(progress, index, bodies),
             )
             for index, (fields, body) in enumerate(
-                zip(self._pressures(places), self.responses, strict=True)
+                zip(self._loads(places), self.responses, strict=True)
             )
         )
 
@@ -113,7 +121,7 @@ class StressSource:
         """Stresses on a plane parallel to the surface; (instants, nx, ny)."""
         return self._sum(
             stress_on_plane(fields, self.grid, depth, body)
-            for fields, body in zip(self._pressures(places), self.responses, strict=True)
+            for fields, body in zip(self._loads(places), self.responses, strict=True)
         )
 
     def _sum(self, parts: Iterable[Stress]) -> Stress:
@@ -132,11 +140,15 @@ class StressSource:
             found.append(np.linspace(top * (1 + BENEATH), bottom, count))
         return np.concatenate(found)
 
-    def _pressures(self, places: Sequence[int]) -> Floats:
-        """Pressures of the responses at stored instants by index; (responses, instants, nx, ny)."""
+    def _loads(self, places: Sequence[int]) -> Floats:
+        """Loads of the responses at stored instants by index; (responses, instants, nx, ny)."""
         stored = self.results["pressure"]
         if self.history is None or not self.history.times.size:
-            return np.asarray(stored.values[list(places)], dtype=np.float64)[None]
+            fields = [
+                sign * np.asarray(self.results[name].values[list(places)], dtype=np.float64)
+                for name, sign in zip(LOADS, self.signs, strict=False)
+            ]
+            return np.stack(fields)
         if not run_axis(self.results).is_history:
             raise ValueError(
                 "stresses: in these layers, which creep differently, they depend on the history of "
@@ -186,7 +198,13 @@ def stress_source(
         )
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio
-        return StressSource(results, (HalfSpaceStress(ratio),))
+        under_pressure = HalfSpaceStress(ratio)
+        if not all(name in results for name in LOADS):
+            return StressSource(results, (under_pressure,))
+        # What one body exerts on the other acts on itself in the opposite direction.
+        sign = 1.0 if body == "material" else -1.0
+        sheared = [HalfSpaceShearStress(ratio, axis) for axis in (0, 1)]
+        return StressSource(results, (under_pressure, *sheared), signs=(1.0, sign, sign))
     if poisson_ratio is not None:
         raise ValueError("poisson_ratio is for half-spaces; layers have their own, leave it out")
     layered = recorded_object(results, body, "stresses")

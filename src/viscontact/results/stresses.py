@@ -66,8 +66,9 @@ def section_stresses(
 
     Notes
     -----
-    For a constant Poisson's ratio the stresses follow from the present pressure alone, whatever
-    the body remembers: see `viscontact.mechanics.halfspace.stress`. In layers that creep
+    For a constant Poisson's ratio the stresses follow from the present pressure alone, under
+    friction from the tractions, too, whatever the body remembers: see
+    `viscontact.mechanics.halfspace.stress`. In layers that creep
     differently they follow from its history, in terms whose relative error is the attribute
     ``splitting_error``: the pressure of all instants from time 0 on has to be stored.
 

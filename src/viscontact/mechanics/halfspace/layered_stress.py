@@ -50,7 +50,7 @@ from viscontact.mechanics.halfspace.stack_waves import (
     stack_waves,
 )
 from viscontact.mechanics.halfspace.stress_influence import stress_coefficients
-from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress, StressResponse
+from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress, PressureStress
 
 #: Direction of the ray of integration, and step of the logarithm of the wave number on it.
 ANGLE, LOG_STEP = np.pi / 8, 0.07
@@ -69,7 +69,7 @@ ALONG, ACROSS, NORMAL, SHEAR = range(4)
 
 
 @dataclass(frozen=True)
-class LayeredStress(StressResponse):
+class LayeredStress(PressureStress):
     """Stresses in an elastic stack."""
 
     stack: ElasticStack

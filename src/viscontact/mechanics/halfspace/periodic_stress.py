@@ -45,7 +45,7 @@ def periodic_stress_coefficients(
     response: StressResponse,
     places: int | None = None,
 ) -> Floats:
-    """Stress per unit pressure on cells repeated along x by `cells` edges [-], (6, places, ny).
+    """Stress per unit load on cells repeated along x by `cells` edges [-], (6, places, ny).
 
     At points at x = first, first + edge, ... from a cell's centre [m], a period if `places` is
     None. Components xx, yy, zz, yz, xz, xy; the edges along y are equally spaced.

@@ -1,8 +1,8 @@
-"""Subsurface stresses of a half-space or of layers under a pressure on the surface.
+"""Subsurface stresses of a half-space or of layers under a load on the surface.
 
-With a constant Poisson's ratio the stresses of a viscoelastic half-space under pressure alone are
-the elastic ones: they do not depend on the modulus, hence on the current pressure only (Lee 1955,
-correspondence principle).
+With a constant Poisson's ratio the stresses of a viscoelastic half-space under pressure and shear
+traction are the elastic ones: they do not depend on the modulus, hence on the current load only
+(Lee 1955, correspondence principle).
 """
 
 from __future__ import annotations
@@ -16,9 +16,8 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.periodic_stress import periodic_stress_coefficients
-from viscontact.mechanics.halfspace.stress_influence import COMPONENTS
+from viscontact.mechanics.halfspace.stress_influence import COMPONENTS, EXCHANGED
 from viscontact.mechanics.halfspace.stress_lines import (
-    EXCHANGED,
     SURFACE,
     Progress,
     along_lines,
@@ -65,7 +64,7 @@ class Stress:
 
 
 def stress_on_section(
-    pressure: Floats,
+    load: Floats,
     grid: Grid,
     depths: ArrayLike,
     body: float | StressResponse,
@@ -78,14 +77,15 @@ def stress_on_section(
 
     Parameters
     ----------
-    pressure : ndarray, shape (..., nx, ny)
-        Pressure on the surface, positive in compression [Pa].
+    load : ndarray, shape (..., nx, ny)
+        Pressure on the surface, positive in compression, or the traction on it along one axis,
+        as the body says [Pa].
     grid : Grid
         The cells.
     depths : array_like, shape (nz,)
         Depths below the surface, 0 or positive [m].
     body : float or StressResponse
-        Poisson's ratio of a half-space [-], or a body of layers.
+        Poisson's ratio of a half-space under pressure [-], or a body under a kind of load.
     x, y : float, optional
         Position of the plane [m]; the other coordinate runs over the grid's cell centres.
     progress : callable, optional
@@ -105,24 +105,25 @@ def stress_on_section(
     Notes
     -----
     Each line of cells acts on the section as a convolution with Love's closed form
-    (`stress_influence`, of layers `layered_stress`), by zero-padded fast Fourier transforms
-    (`stress_lines`); exact for pressure that is constant within cells. On a grid that is periodic
+    (`stress_influence`, of layers `layered_stress`, of tractions `shear_stress_influence`), by
+    zero-padded fast Fourier transforms (`stress_lines`); exact for loads that are constant within
+    cells. On a grid that is periodic
     along one axis the images of a cell are summed (`periodic_stress`). On one that is periodic
-    along both, each wave of the pressure has its own stresses (`stress_waves`): Johnson 1985,
-    Contact Mechanics, section 13.2, turned to its direction; and the mean pressure causes no strain
-    along the surface: σxx = σyy = ν/(1 - ν) σzz.
+    along both, each wave of the load has its own stresses (`stress_waves`): those of a pressure
+    have Johnson's (1985, Contact Mechanics, section 13.2), turned to its direction; and the mean
+    pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
     """
     response = _response(body)
     below = _check_depths(depths, response)
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
-        turned = pressure.swapaxes(-1, -2)
-        stress = stress_on_section(turned, _swap(grid), below, response, y=x, progress=progress)
+        turned, body = load.swapaxes(-1, -2), response.exchanged
+        stress = stress_on_section(turned, _swap(grid), below, body, y=x, progress=progress)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[EXCHANGED])
     y = grid.centre[1] if y is None else y
-    fields = pressure.reshape(-1, *grid.shape)
+    fields = load.reshape(-1, *grid.shape)
     compute = waves_on_section if all(grid.periodic) else along_lines
     # Influence coefficients are the same for all fields: compute many of them together.
     count = max(1, int(TOGETHER / (64 * fields[0].size)))
@@ -132,20 +133,18 @@ def stress_on_section(
         found[:, index * count : index * count + len(part)] = compute(
             part, grid, below, response, y, part_of(progress, index, len(parts))
         )
-    return Stress(found.reshape(6, *pressure.shape[:-2], *found.shape[2:]))
+    return Stress(found.reshape(6, *load.shape[:-2], *found.shape[2:]))
 
 
-def stress_on_plane(
-    pressure: Floats, grid: Grid, depth: float, body: float | StressResponse
-) -> Stress:
+def stress_on_plane(load: Floats, grid: Grid, depth: float, body: float | StressResponse) -> Stress:
     """Stress on a plane parallel to the surface, at the cell centres, of shape (..., nx, ny)."""
     response = _response(body)
     below = float(_check_depths([depth], response)[0])
     if all(grid.periodic):
-        found = waves_on_plane(pressure.reshape(-1, *grid.shape), grid, below, response)
-        return Stress(found.reshape(6, *pressure.shape))
+        found = waves_on_plane(load.reshape(-1, *grid.shape), grid, below, response)
+        return Stress(found.reshape(6, *load.shape))
     if grid.periodic[1]:
-        turned = stress_on_plane(pressure.swapaxes(-1, -2), _swap(grid), below, response)
+        turned = stress_on_plane(load.swapaxes(-1, -2), _swap(grid), below, response.exchanged)
         return Stress(turned.components[EXCHANGED].swapaxes(-1, -2))
     below = max(below, SURFACE * min(grid.cell_size))
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size
@@ -161,7 +160,7 @@ def stress_on_plane(
         kernel, padded = np.roll(kernel, 1 - nx, axis=1), 2 * nx - 1
     shape = (padded, 2 * ny - 1)
     spectrum = scipy.fft.rfft2(np.roll(kernel, 1 - ny, axis=2), shape)
-    own = scipy.fft.rfft2(pressure, shape)
+    own = scipy.fft.rfft2(load, shape)
     found = np.stack([scipy.fft.irfft2(each * own, shape)[..., :nx, :ny] for each in spectrum])
     return Stress(found)
 

@@ -16,6 +16,9 @@ _TINY = float(np.finfo(np.float64).tiny)
 #: The components of a stress tensor, in the order in which they are stacked.
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
+#: Places of the components after an exchange of x and y.
+EXCHANGED = [1, 0, 2, 4, 3, 5]
+
 
 def stress_coefficients(
     x_edges: Floats,

@@ -1,7 +1,6 @@
-"""Stresses below a pressure that is periodic along both axes, wave by wave.
+"""Stresses below a pressure or a traction that is periodic along both axes, wave by wave.
 
-Each wave of the pressure has its own stresses (Johnson 1985, Contact Mechanics, section 13.2),
-turned to its direction; the mean pressure causes no strain along the surface.
+Each wave of the load has its own stresses, by `StressResponse.tensors`.
 """
 
 from __future__ import annotations
@@ -12,43 +11,33 @@ import scipy
 from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.transforms import as_reals
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.halfspace.stress_lines import Progress
+from viscontact.mechanics.halfspace.stress_lines import ODD_ACROSS, Progress
 from viscontact.mechanics.halfspace.stress_response import StressResponse
 
 
 def waves_on_section(
-    pressure: Floats,
+    loads: Floats,
     grid: Grid,
     depths: Floats,
     response: StressResponse,
     y: float,
     progress: Progress | None = None,
 ) -> Floats:
-    """Stresses on the plane of y [m], shape (6, fields, depths, nx), by fields of pressure."""
+    """Stresses on the plane of y [m], shape (6, fields, depths, nx), by fields of the load."""
     # Waves along the section by a transform, across it by a sum of both directions at once: their
-    # stresses are equal, up to the sign of the components yz and xy.
+    # stresses are equal, up to the sign of those that are odd across it.
     (nx, ny), (dx, dy) = grid.shape, grid.cell_size
     along = 2 * np.pi * scipy.fft.rfftfreq(nx, dx)[:, None]
     across = 2 * np.pi * scipy.fft.rfftfreq(ny, dy)[None, :]
-    even, odd = _both_directions(pressure, y - grid.y[0], across[0])
-    q = np.hypot(along, across)
-    q[0, 0] = 1.0  # the mean has no direction; it is set below
-    east, north = along / q, across / q
-    at = response.waves(q)
-    found = np.empty((6, len(pressure), len(depths), nx))
+    even, odd = _both_directions(loads, y - grid.y[0], across[0])
+    if response.axis == 1:
+        even, odd = odd, even
+    at = response.tensors(along, across)
+    found = np.empty((6, len(loads), len(depths), nx))
     for index, depth in enumerate(depths.tolist()):
-        own = at(depth)
-        parts = (own.along, own.across, own.normal, own.shear)
-        ahead, aside, normal, shear = (np.asarray(part * own.decay) for part in parts)
-        xx, yy = east**2 * ahead + north**2 * aside, north**2 * ahead + east**2 * aside
-        lateral = lateral_at_rest(response, depth)
-        xx[0, 0] = yy[0, 0] = -lateral
-        normal[0, 0] = -1.0
         sums = [
-            *(_sum_waves(each, even) for each in (xx, yy, normal)),
-            -1j * _sum_waves(north * shear, odd),
-            -1j * _sum_waves(east * shear, even),
-            _sum_waves(east * north * (ahead - aside), odd),
+            phase * _sum_waves(each, odd if place in ODD_ACROSS else even)
+            for place, (phase, each) in enumerate(zip(response.phases, at(depth), strict=True))
         ]
         found[:, :, index] = scipy.fft.irfft(np.stack(sums), nx, axis=1).swapaxes(1, 2)
         if progress is not None:
@@ -56,39 +45,22 @@ def waves_on_section(
     return found
 
 
-def waves_on_plane(pressure: Floats, grid: Grid, depth: float, response: StressResponse) -> Numbers:
-    """Stresses on the plane of a depth [m], shape (6, fields, nx, ny), by fields of pressure."""
+def waves_on_plane(loads: Floats, grid: Grid, depth: float, response: StressResponse) -> Numbers:
+    """Stresses on the plane of a depth [m], shape (6, fields, nx, ny), by fields of the load."""
     along = 2 * np.pi * scipy.fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
     across = 2 * np.pi * scipy.fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
-    q = np.hypot(along, across)
-    q[0, 0] = 1.0  # the mean has no direction; it is set below
-    east, north = along / q, across / q
-    own = response.waves(q)(depth)
-    lateral = lateral_at_rest(response, depth)
-    found = np.empty((6, *pressure.shape))
-    for place, field in enumerate(pressure):
-        spectrum = scipy.fft.fft2(field)
-        waves = spectrum * own.decay
-        ahead, aside = own.along * waves, own.across * waves
-        components = np.stack(
-            [
-                east**2 * ahead + north**2 * aside,
-                north**2 * ahead + east**2 * aside,
-                own.normal * waves,
-                -1j * north * own.shear * waves,
-                -1j * east * own.shear * waves,
-                east * north * (ahead - aside),
-            ]
-        )
-        components[:, 0, 0] = -spectrum[0, 0] * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
-        found[:, place] = scipy.fft.ifft2(components).real
+    own = np.stack(
+        [
+            phase * each
+            for phase, each in zip(
+                response.phases, response.tensors(along, across)(depth), strict=True
+            )
+        ]
+    )
+    found = np.empty((6, *loads.shape))
+    for place, field in enumerate(loads):
+        found[:, place] = scipy.fft.ifft2(own * scipy.fft.fft2(field)).real
     return found
-
-
-def lateral_at_rest(response: StressResponse, depth: float) -> float:
-    """Pressure along the surface per unit mean pressure on it, without strain: ν/(1 - ν) [-]."""
-    nu = response.poisson_ratio_at(depth)
-    return nu / (1 - nu)
 
 
 def _both_directions(pressure: Floats, offset: float, across: Floats) -> tuple[Floats, Floats]:
