@@ -10,7 +10,7 @@ from viscontact.results.accessor import ResultAccessor as ResultAccessor
 from viscontact.results.checked_store import open_checked
 from viscontact.results.digests import store_digests
 from viscontact.results.seal import seal
-from viscontact.results.stored_result import open_replaceable, open_to_append
+from viscontact.results.stored_result import appending, open_replaceable
 
 
 def save(ds: xr.Dataset, path: str | Path) -> None:
@@ -34,7 +34,7 @@ def save(ds: xr.Dataset, path: str | Path) -> None:
     """
     ds.to_netcdf(path, format="NETCDF4", engine="netcdf4")
     written = Path(path).expanduser()
-    with open_to_append(written) as file:
+    with appending(written) as file:
         store_digests(file)
     seal(written)
 

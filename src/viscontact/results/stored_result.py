@@ -36,6 +36,39 @@ def open_to_append(path: Path) -> netCDF4.Dataset:
     return file
 
 
+@contextmanager
+def appending(path: Path) -> Iterator[netCDF4.Dataset]:
+    """Open a result for appending within the block; OSError or RuntimeError if a write fails."""
+    file = open_to_append(path)
+    try:
+        yield file
+    finally:
+        close_written(file)
+
+
+def close_written(file: netCDF4.Dataset) -> None:
+    """Close a file that was written; OSError or RuntimeError if the last bytes cannot be."""
+    # Where a write fails in the call of HDF5 that closes a file, netCDF goes on with freed memory,
+    # which ends the process without a word. So the rows are written before, and it is tried
+    # whether the first bytes can be, which HDF5 writes again in that call.
+    try:
+        file.sync()
+        _write_again(Path(file.filepath()))
+    except (OSError, RuntimeError):
+        # Its destructor would close it. HDF5 gives it up when the process ends.
+        vars(netCDF4.Dataset)["_isopen"].__set__(file, 0)
+        raise
+    file.close()
+
+
+def _write_again(path: Path) -> None:
+    """Write the first byte of a file once more, as it is."""
+    with path.open("r+b", buffering=0) as file:
+        first = file.read(1)
+        file.seek(0)
+        file.write(first)
+
+
 def without_masks(file: netCDF4.Dataset) -> netCDF4.Dataset:
     """Let a file return the values that it stores: NaN is the fill value and would be masked."""
     file.set_auto_maskandscale(False)

@@ -272,6 +272,28 @@ def test_file_that_may_not_grow_any_more_ends_the_writing_in_order(room: int, pa
     assert faults_of(path, 300, None, times=times) == []
 
 
+UNWRITABLE = """
+import resource, sys
+from pathlib import Path
+from written_states import begun, write
+with begun(Path(sys.argv[1])) as writer:
+    write(writer, 2)
+    writer.publish()
+    writer.reopen()
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+print("goes on")
+"""
+
+
+def test_discarding_rows_where_nothing_can_be_written_does_not_end_the_process(path: Path) -> None:
+    # HDF5 writes the first bytes of a file when it closes it, even where no rows have been added.
+    pytest.importorskip("resource")
+    run = script("-c", UNWRITABLE, str(path))
+    assert (run.returncode, run.stdout, run.stderr) == (0, "goes on\n", "")
+    assert names(path) == [NAME]
+    assert faults_of(path, 2, SOME) == []
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills its own children")
 def test_result_is_whole_and_readable_whenever_its_writer_is_killed(path: Path) -> None:

@@ -19,7 +19,7 @@ from viscontact.mechanics.state import ADHESION, ContactState, as_event
 from viscontact.results.digests import RunningDigests, store_digests
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.results.seal import seal
-from viscontact.results.stored_result import StoredFile, open_to_append
+from viscontact.results.stored_result import StoredFile, close_written, open_to_append
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.earlier_result import check_result, stored_grid
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -312,7 +312,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     def _close(self) -> None:
         file, self._open = self._open, None
         if file is not None:
-            file.close()
+            close_written(file)
 
     def _file(self) -> netCDF4.Dataset:
         if self._open is None:

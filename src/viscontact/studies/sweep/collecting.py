@@ -13,7 +13,7 @@ import numpy as np
 
 from viscontact.results.digests import store_digests
 from viscontact.results.seal import seal
-from viscontact.results.stored_result import open_to_append
+from viscontact.results.stored_result import appending
 from viscontact.runs.directory.atomic_files import fresh_name, put_in_place
 from viscontact.runs.directory.netcdf_layout import true_cause
 from viscontact.studies.sweep.joint_layout import JointLayout, Progress
@@ -32,7 +32,7 @@ def write_joint_result(
             frame = frame.assign_coords(lazy_fields(layout).coords)
         with true_cause(fresh):
             frame.to_netcdf(fresh, format="NETCDF4", engine="netcdf4")
-        with open_to_append(fresh) as file:
+        with appending(fresh) as file:
             _write_scalars(file, layout, progress)
             if fields:
                 _write_fields(file, layout, progress)
