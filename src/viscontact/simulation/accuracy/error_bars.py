@@ -31,6 +31,7 @@ from viscontact.simulation.accuracy.error_models import (
     COARSE_SPOT_CELLS,
     ERROR_MODELS,
     MOVING_MODELS,
+    ErrorModel,
 )
 from viscontact.simulation.accuracy.event_bars import (
     event_errors,
@@ -40,7 +41,12 @@ from viscontact.simulation.accuracy.event_bars import (
     widen_after_events,
     with_least_errors,
 )
-from viscontact.simulation.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
+from viscontact.simulation.accuracy.least_bars import (
+    ContactKinds,
+    agrees,
+    least_bar,
+    least_peak_bar,
+)
 from viscontact.simulation.accuracy.refinement_levels import (
     RefinementLevels,
     aligned,
@@ -49,9 +55,11 @@ from viscontact.simulation.accuracy.refinement_levels import (
     end_flags,
     moving_maximum,
     moving_minimum,
+    quotient,
     rises_to_ends,
     spots_across,
 )
+from viscontact.simulation.accuracy.rim_cells import least_extent_of_area, recedes
 from viscontact.simulation.accuracy.singular_peaks import (
     coarse_peak_warnings,
     peak_bars,
@@ -95,6 +103,17 @@ ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
 #: Estimated time error of the pressure that counts only in excess, at the instants that a third run
 #: with divided steps has left out.
 SHOWN_TIME_ERROR = 0.01
+
+#: Error of extents over that which a rim as uncertain as the area would cause.
+EXTENT_OF_AREA = 0.8
+
+#: Cells across the contact up to which its peak may be any below that of more cells, and its place
+#: any within a cell.
+FIRST_CELLS = 3.0
+
+#: Part of the estimated time error of the pressure that counts in a receding contact at instants
+#: that coarser runs share: they may take the step before as the run does.
+SHOWN_RECEDING = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +161,7 @@ def error_bars_from(
         for name in ERROR_MODELS
         if name in history
     }
+    _widen_extents(values, kinds, history, found)
     least_peak = least_peak_bar(run, kinds, history)
     values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak)
     values["mean_pressure"] = _mean_pressure_bar(history, values)
@@ -155,6 +175,7 @@ def error_bars_from(
     widen_after_events(values, run, history, ends)
     touching = _touching(history, found)
     _bound_by_first_contact(values, history, touching)
+    _bound_in_first_cells(values, history)
     apart = _certainly_separated(run, history, touching)
     _zero_without_contact(run, values, apart, touching)
     peaks = values["peak_pressure"]
@@ -205,10 +226,24 @@ def _in_several_spots(run: RunSetup, history: History, spots: Floats) -> Bools:
         return np.ones(len(spots), dtype=bool)
     lengths = [history["contact_length"], history["contact_width"]]
     cells = [
-        _quotient(history["contact_area"], length * size)
+        quotient(history["contact_area"], length * size)
         for length, size in zip(lengths, reversed(run.grid.cell_size), strict=True)
     ]
     return np.asarray(spots < ONE_SPOT * np.minimum(*cells))
+
+
+def _widen_extents(
+    values: dict[str, Floats], kinds: ContactKinds, history: History, results: list[CoarserResult]
+) -> None:
+    """Raise the bars of extents to what the bar of the area makes of those of a round contact."""
+    # All grids may have a line of cells too many, for as long as a contact stands; under a blunt
+    # body that recedes, such a line is the last to leave.
+    for name in EXTENTS[1:]:
+        rows = RefinementLevels.of(name, history, results).values
+        if not agrees(np.abs(rows[1:] - rows[0]), history[name]):
+            least = least_extent_of_area(history, values["contact_area"])
+            part = EXTENT_OF_AREA * (1 + kinds.steepness * recedes(history))
+            values[name] = np.fmax(values[name], part * least)
 
 
 def unknown_bars(history: History) -> ErrorBars:
@@ -226,6 +261,39 @@ def _bar(
     model = ERROR_MODELS[name]
     if not run.problem.motion.stands:
         model = MOVING_MODELS.get(name, model)
+    area = history["contact_area"]
+    by_cells = _by_cells(model, name, levels, kinds)
+    # The relative error from the cells falls with their number in a growing contact; without
+    # contact, what a scalar keeps has the errors of the instants around.
+    cells = area / run.grid.cell_area
+    count, over = np.maximum(cells, 1.0), quotient(by_cells, scale)
+    part = model.of_neighbours
+    nearby = _largest_nearby(count * over, part) / count
+    relative = np.where(area > 0, nearby, _largest_nearby(over, part))
+    carried = levels.carried(scale, cells, remembers=_remembers(run))
+    relative = np.fmax(relative, quotient(_by_cells(model, name, carried, kinds), scale))
+    # What is prescribed does not differ between the grids.
+    differs = between_known(by_cells) > run.problem.solver_error * scale
+    part = model.of_left_out if levels.steps_shown.any() else model.of_time_error
+    estimated = part * _estimated_by_steps(name, levels, history)
+    by_steps = np.fmax(levels.by_steps, np.where(differs, estimated, 0.0))
+    relative += np.nan_to_num(quotient(by_steps, scale))
+    while_receding = model.of_receding * _while_receding(run, levels.left_out, history)
+    receding = np.where(differs, while_receding * quotient(own, scale), 0.0)
+    relative = np.fmax(relative, receding)
+    relative += run.problem.solver_error + max(plan.error for plan in run.plans)
+    relative += run.problem.surface.splitting_error
+    bar = (relative + run.problem.compliance.inversion_error) * scale
+    bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
+    if run.problem.is_coupled:
+        bar = COUPLED * bar
+    return np.where(np.isnan(own), np.nan, bar)
+
+
+def _by_cells(
+    model: ErrorModel, name: str, levels: RefinementLevels, kinds: ContactKinds
+) -> Floats:
+    """Error of a scalar from the cells by the kinds of contact, in its unit."""
     by_cells = model.of(levels)
     if model.at_end is not None:
         ended = kinds.ended if name in ERRORS_KEPT else kinds.at_end
@@ -234,27 +302,22 @@ def _bar(
         by_cells = np.where(kinds.steep, model.steep.of(levels), by_cells)
     if model.of_spots is not None:
         by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
-    # The relative error from the cells falls with their number in a growing contact; without
-    # contact, what a scalar keeps has the errors of the instants around.
-    cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
-    over = _quotient(by_cells, scale)
-    touching = history["contact_area"] > 0
-    part = model.of_neighbours
-    nearby = _largest_nearby(cells * over, part) / cells
-    relative = np.where(touching, nearby, _largest_nearby(over, part))
-    # What is prescribed does not differ between the grids.
-    differs = between_known(by_cells) > run.problem.solver_error * scale
-    part = model.of_left_out if levels.steps_shown.any() else model.of_time_error
-    estimated = part * _estimated_by_steps(name, levels, history)
-    by_steps = np.fmax(levels.by_steps, np.where(differs, estimated, 0.0))
-    relative += np.nan_to_num(_quotient(by_steps, scale))
-    relative += run.problem.solver_error + max(plan.error for plan in run.plans)
-    relative += run.problem.surface.splitting_error
-    bar = (relative + run.problem.compliance.inversion_error) * scale
-    bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
-    if run.problem.is_coupled:
-        bar = COUPLED * bar
-    return np.where(np.isnan(own), np.nan, bar)
+    return by_cells
+
+
+def _remembers(run: RunSetup) -> bool:
+    """Test whether a contact depends on the loads before."""
+    problem = run.problem
+    slips_or_adheres = problem.friction is not None or run.law is not None
+    return slips_or_adheres or not (problem.surface.creep.is_elastic and problem.motion.stands)
+
+
+def _while_receding(run: RunSetup, left_out: Bools, history: History) -> Floats:
+    """Relative error of a contact that recedes, by the time error of its pressure [-]."""
+    # A rim that loses contact within a step is loaded too long in it. Runs with other steps show
+    # this at the instants that they share.
+    parts = np.where(left_out, 1.0, SHOWN_RECEDING) * history["time_error"]
+    return np.where(recedes(history) & run.problem.motion.stands, parts, 0.0)
 
 
 def _estimated_by_steps(name: str, levels: RefinementLevels, history: History) -> Floats:
@@ -268,12 +331,6 @@ def _estimated_by_steps(name: str, levels: RefinementLevels, history: History) -
     added = np.abs(np.diff(levels.values[0], prepend=0.0))
     kept = np.nancumsum(largest * added) if name == "work" else largest * own
     return np.where(levels.steps_shown, 0.0, np.fmax(kept, largest * own))
-
-
-def _quotient(error: Floats, scale: Floats) -> Floats:
-    """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
-    nothing = np.where(np.isnan(error), np.nan, 0.0)
-    return np.divide(error, scale, out=nothing, where=scale > 0)
 
 
 def _largest_nearby(relative: Floats, part: float) -> Floats:
@@ -315,6 +372,19 @@ def _bound_by_first_contact(values: dict[str, Floats], history: History, touchin
     first = int(contact.argmax())
     for name in ZERO_WITHOUT_CONTACT:
         values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
+
+
+def _bound_in_first_cells(values: dict[str, Floats], history: History) -> None:
+    """Take the way to the peak and place of more cells as error of those of the first cells."""
+    contact, across = with_contact(history), history["cells_across"]
+    first = int(contact.argmax())
+    more = across[first:] > FIRST_CELLS
+    if not more.any():
+        return
+    later = first + int(more.argmax())
+    for name in ("peak_pressure", "eccentricity_x", "eccentricity_y"):
+        ways = np.abs(history[name][later] - history[name][first:later])
+        values[name][first:later] = np.fmax(values[name][first:later], ways)
 
 
 def _certainly_separated(run: RunSetup, history: History, touching: Bools) -> Bools:

@@ -182,9 +182,7 @@ def least_bar(
     """Lower limit of a scalar's bars over times, in its unit, by the differences of the grids."""
     if name in EXTENTS:
         axis = EXTENTS.index(name)
-        # An extent on which the grids agree at all times is that of the body.
-        agree = np.all(~(by_cells > AGREEMENT_TOLERANCE * history[name]))
-        if agree and np.isfinite(by_cells).any():
+        if agrees(by_cells, history[name]) and np.isfinite(by_cells).any():
             return _least_body_extent_bar(run, axis, kinds)
         return _least_extent_bar(run, axis, kinds, history)
     if name == "contact_area":
@@ -200,6 +198,11 @@ def least_bar(
     if name in LEAST_ERRORS and name != run.problem.load.control:
         return _least_bulk_bar(run, name, kinds, history)
     return 0.0
+
+
+def agrees(differences: Floats, extents: Floats) -> bool:
+    """Test whether the grids agree on an extent at all times: it is that of the body."""
+    return bool(np.all(~(differences > AGREEMENT_TOLERANCE * extents)))
 
 
 def _least_grip_bar(run: RunSetup, name: str, history: History) -> Floats:
@@ -346,6 +349,9 @@ def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     ratios = [cells_over_thickness(run, k) for k in (0, 1) if run.grid.shape[k] > 1]
     least = least * (1 + THIN_GROWTH * min(ratios, default=0.0) ** 2)
     relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
+    if name == "work":  # it keeps the error of a contact that is lost
+        last = np.maximum.accumulate(np.where(across > 0, np.arange(len(across)), 0))
+        relative = relative[last]
     steep = STEEP_ERRORS.get(name, 0.0) / np.maximum(across, 1.0)
     relative = np.where(kinds.steep & (across > 0), np.maximum(relative, steep), relative)
     longest = np.fmax.accumulate(cells_along(run, history))

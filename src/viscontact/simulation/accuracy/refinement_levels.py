@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,10 @@ DIVIDED_STEP_FACTOR = 1.3
 #: times too large. At instants that coarser runs leave out, such as the last one before the contact
 #: is lost, it counts in full.
 LARGE_TIME_ERROR, PART_OF_LARGE = 0.2, 0.3
+
+#: Part of the differences of a grid that counts at times that it has left out: errors are a matter
+#: of the rim's place among the cells, and rarely as large in between.
+CARRIED = 0.6
 
 #: Scalars of a moving contact that keep an error once it is made.
 CUMULATIVE = ("work", "motion_work", "heat")
@@ -54,6 +58,32 @@ class RefinementLevels:
         left_out = np.fmax(_interpolated(times, known), large)
         by_steps = np.where(np.isnan(known), left_out, known)
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps, shown)
+
+    @property
+    def left_out(self) -> Bools:
+        """Times that no coarser run has."""
+        return np.asarray(np.isnan(self.values[1:]).all(axis=0))
+
+    def carried(self, scale: Floats, cells: Floats, *, remembers: bool) -> RefinementLevels:
+        """Levels whose grids differ as at their nearest times where they have left out one.
+
+        Each grid for itself: at the only time near it that one has, it may agree by chance. The
+        differences are relative to `scale` and fall with the number of `cells` in contact. What
+        remembers no load before differs as much at the times of the next smaller and larger one.
+        """
+        own, count = self.values[0], np.maximum(cells, 1.0)
+        by_size = np.argsort(cells, kind="stable")
+        rows = []
+        for row in self.values[1:]:
+            apart = quotient(row - own, scale)
+            missing = np.where(cells > 0, mean_nearest(count * apart) / count, mean_nearest(apart))
+            if not remembers:
+                alike = np.empty(len(own))
+                alike[by_size] = mean_nearest((count * apart)[by_size])
+                larger = (cells > 0) & (np.abs(alike / count) > np.abs(missing))
+                missing = np.where(larger, alike / count, missing)
+            rows.append(np.where(np.isnan(row), own + CARRIED * scale * missing, row))
+        return replace(self, values=np.stack([own, *rows]))
 
     def by_cells(self, order: float) -> Floats:
         """Error from the cells at an order of convergence: the largest over the pairs of grids."""
@@ -146,11 +176,31 @@ def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
 
 def between_known(values: Floats) -> Floats:
     """Larger one of the nearest known values on both sides; NaN where one of them is unknown."""
+    return np.asarray(np.maximum(*_nearest_known(values)))
+
+
+def mean_nearest(values: Floats) -> Floats:
+    """Mean magnitude of the nearest known values on both sides, with the sign of the larger one."""
+    before, after = _nearest_known(values)
+    before = np.where(np.isnan(before), after, before)
+    after = np.where(np.isnan(after), before, after)
+    larger = np.where(np.abs(after) > np.abs(before), after, before)
+    return np.asarray(np.sign(larger) * (np.abs(before) + np.abs(after)) / 2)
+
+
+def _nearest_known(values: Floats) -> tuple[Floats, Floats]:
+    """Nearest known values before and after each time, or at it; NaN where there is none."""
     places = np.arange(len(values))
     known = ~np.isnan(values)
     before = np.maximum.accumulate(np.where(known, places, 0))
     after = np.minimum.accumulate(np.where(known, places, len(values) - 1)[::-1])[::-1]
-    return np.maximum(values[before], values[after])
+    return values[before], values[after]
+
+
+def quotient(error: Floats, scale: Floats) -> Floats:
+    """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
+    nothing = np.where(np.isnan(error), np.nan, 0.0)
+    return np.divide(error, scale, out=nothing, where=scale > 0)
 
 
 def moving_minimum(values: Numbers) -> Floats:

@@ -19,6 +19,9 @@ ROUNDING = 1e-9
 #: and at most: cylinders on layers of 0.4 to 3 thicknesses per cell err by 0.05 to 0.5 cells.
 THIN_RIM_CELLS, MOST_THIN_RIM = 0.12, 0.5
 
+#: Least part of a rectangle around a contact that one round spot fills; an ellipse fills 0.79.
+ROUND_SPOT = 0.6
+
 #: Extents of the contact along x and y.
 EXTENTS = ("contact_length", "contact_width")
 
@@ -35,6 +38,22 @@ def tip_curvature(run: RunSetup, history: History) -> Floats:
     breadth = np.where(touching, history["contact_area"] / (np.pi * longest / 2), 1.0)
     cells = np.array(run.grid.cell_size)[:, None] * longest / 2 / breadth**2
     return np.asarray(np.where(touching, np.log1p(2 * cells) * (extents / longest) ** 2, 0.0))
+
+
+def least_extent_of_area(history: History, area_bars: Floats) -> Floats:
+    """Error of both extents of one round contact whose rim is as uncertain as its area [m]."""
+    # If both extents are too large by e, the area is by e (1/length + 1/width) of itself.
+    length, width = (np.nan_to_num(history[name]) for name in EXTENTS)
+    box, area = length * width, history["contact_area"]
+    is_round = (area > ROUND_SPOT * box) & (box > 0)
+    shares = np.where(is_round, np.nan_to_num(area_bars), 0.0) / np.where(is_round, area, 1.0)
+    return np.asarray(shares * box / np.where(is_round, length + width, 1.0))
+
+
+def recedes(history: History) -> Bools:
+    """Times at which the contact is smaller than at the time before."""
+    area = history["contact_area"]
+    return np.asarray((np.diff(area, prepend=area[:1]) < 0) & (area > 0))
 
 
 def crest_cells(run: RunSetup, history: History, axis: int) -> Floats:
