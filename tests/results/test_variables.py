@@ -48,8 +48,8 @@ from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, RunStage
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation.accuracy.coarser_results import history_of
-from viscontact.simulation.accuracy.error_bars import ZERO_WITHOUT_CONTACT
 from viscontact.simulation.accuracy.error_models import ERROR_MODELS
+from viscontact.simulation.accuracy.first_and_last_contact import ZERO_WITHOUT_CONTACT
 from viscontact.web.runs.live_scalars import grown
 
 __all__ = ["without_pictures"]  # a fixture

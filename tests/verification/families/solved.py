@@ -13,7 +13,8 @@ from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import history_of
 from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
-from viscontact.simulation.accuracy.error_bars import ZERO_WITHOUT_CONTACT, error_bars_from
+from viscontact.simulation.accuracy.error_bars import error_bars_from
+from viscontact.simulation.accuracy.first_and_last_contact import ZERO_WITHOUT_CONTACT
 from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.setup import prepare_run
 from viscontact.simulation.transient.state_generator import march_run

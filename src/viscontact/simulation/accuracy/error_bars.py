@@ -14,13 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.bodies.loads import MixedHistory
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.accuracy.coarser_results import (
     CoarserResult,
     History,
-    indentation,
-    with_contact,
 )
 from viscontact.simulation.accuracy.coarser_runs import (
     creeps,
@@ -41,15 +38,25 @@ from viscontact.simulation.accuracy.event_bars import (
     widen_after_events,
     with_least_errors,
 )
+from viscontact.simulation.accuracy.first_and_last_contact import (
+    before_loss,
+    bound_by_few_cells,
+    bound_by_first_contact,
+    bound_in_first_cells,
+    certainly_separated,
+    touching_times,
+    zero_without_contact,
+)
 from viscontact.simulation.accuracy.least_bars import (
+    MOMENTS,
     ContactKinds,
     agrees,
     least_bar,
     least_peak_bar,
 )
 from viscontact.simulation.accuracy.refinement_levels import (
+    CUMULATIVE,
     RefinementLevels,
-    aligned,
     beside_peak,
     between_known,
     end_flags,
@@ -59,13 +66,14 @@ from viscontact.simulation.accuracy.refinement_levels import (
     rises_to_ends,
     spots_across,
 )
-from viscontact.simulation.accuracy.rim_cells import least_extent_of_area, recedes
+from viscontact.simulation.accuracy.rim_cells import EXTENTS, least_extent_of_area, recedes
 from viscontact.simulation.accuracy.singular_peaks import (
     coarse_peak_warnings,
     peak_bars,
     singular_warnings,
     unbounded_peak,
 )
+from viscontact.simulation.accuracy.step_errors import estimated_by_steps, while_receding
 from viscontact.simulation.transient.setup import RunSetup
 
 #: Scalars whose errors a creeping body keeps after the contact has left the end.
@@ -78,42 +86,19 @@ ERRORS_KEPT = (
 #: is the least of coarser grids, which may miss cells at the rim.
 ONE_SPOT = 0.7
 
-#: Scalars that are exactly zero without contact.
-ZERO_WITHOUT_CONTACT = (
-    *("force", "contact_area", "contact_length", "contact_width"),
-    *("peak_pressure", "mean_pressure", "peak_line_load"),
-)
-
-#: Those that are zero without contact of bodies that adhere, too.
-EXTENTS = ("contact_area", "contact_length", "contact_width")
-
-#: The same of a contact under friction.
-ZERO_WITHOUT_GRIP = (
-    *("tangential_force_x", "tangential_force_y", "torque"),
-    *("stick_area", "slip_fraction"),
-)
-
 #: Factor of the bars of bodies that are coupled by friction, whose tractions converge more slowly.
 COUPLED = 2.0
-
-#: The same of a moving contact, and those that are zero before the first contact.
-ZERO_WITHOUT_MOVING_CONTACT = ("resistance_x", "resistance_y")
-ZERO_BEFORE_CONTACT = ("motion_work", "dissipation", "heat")
-
-#: Estimated time error of the pressure that counts only in excess, at the instants that a third run
-#: with divided steps has left out.
-SHOWN_TIME_ERROR = 0.01
 
 #: Error of extents over that which a rim as uncertain as the area would cause.
 EXTENT_OF_AREA = 0.8
 
-#: Cells across the contact up to which its peak may be any below that of more cells, and its place
-#: any within a cell.
-FIRST_CELLS = 3.0
+#: How many times as large bars are at the last instant before a contact is lost: errors grow until
+#: the loss, and many of the largest were there.
+BEFORE_LOSS = 2.0
 
-#: Part of the estimated time error of the pressure that counts in a receding contact at instants
-#: that coarser runs share: they may take the step before as the run does.
-SHOWN_RECEDING = 0.3
+#: Part of the largest errors so far of moments that a creeping body keeps: while a contact hardly
+#: grows, its rim stays among the same cells, and coarser grids may agree for long by chance.
+KEPT_OF_MOMENTS = 0.35
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +147,7 @@ def error_bars_from(
         if name in history
     }
     _widen_extents(values, kinds, history, found)
+    values["contact_area"] = bound_by_few_cells(values["contact_area"], history)
     least_peak = least_peak_bar(run, kinds, history)
     values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak)
     values["mean_pressure"] = _mean_pressure_bar(history, values)
@@ -173,35 +159,17 @@ def error_bars_from(
     values["peak_line_load"] = _bar(run, "peak_line_load", line_load, sharp, history)
     ends = with_least_errors(segment_end_errors(run, found), values, run, history)
     widen_after_events(values, run, history, ends)
-    touching = _touching(history, found)
-    _bound_by_first_contact(values, history, touching)
-    _bound_in_first_cells(values, history)
-    apart = _certainly_separated(run, history, touching)
-    _zero_without_contact(run, values, apart, touching)
+    touching = touching_times(history, found)
+    bound_by_first_contact(values, history)
+    bound_in_first_cells(values, history)
+    apart = certainly_separated(run, history, touching)
+    zero_without_contact(run, values, apart, touching)
     peaks = values["peak_pressure"]
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)
     set_bars_at_events(values, run, history)
     attributes = event_errors(run, ends) | pull_off_errors(run, found)
     return ErrorBars(values, warnings, attributes)
-
-
-def _zero_without_contact(
-    run: RunSetup, values: dict[str, Floats], apart: Bools, touching: Bools
-) -> None:
-    """Set bars of zero at instants at which bodies are apart, or have not touched before."""
-    without = ZERO_WITHOUT_CONTACT if run.law is None else EXTENTS
-    zero: list[tuple[tuple[str, ...], Bools]] = [(without, apart)]
-    if not run.problem.motion.stands:
-        before = apart & ~np.logical_or.accumulate(touching)
-        zero += [(ZERO_WITHOUT_MOVING_CONTACT, apart), (ZERO_BEFORE_CONTACT, before)]
-    if run.problem.friction is not None:
-        zero.append((ZERO_WITHOUT_GRIP, apart))
-        if not run.problem.motion.stands:
-            zero.append((("drive_torque",), apart))
-    for names, where in zero:
-        for name in names:
-            values[name][where] = 0.0
 
 
 def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:
@@ -238,7 +206,7 @@ def _widen_extents(
     """Raise the bars of extents to what the bar of the area makes of those of a round contact."""
     # All grids may have a line of cells too many, for as long as a contact stands; under a blunt
     # body that recedes, such a line is the last to leave.
-    for name in EXTENTS[1:]:
+    for name in EXTENTS:
         rows = RefinementLevels.of(name, history, results).values
         if not agrees(np.abs(rows[1:] - rows[0]), history[name]):
             least = least_extent_of_area(history, values["contact_area"])
@@ -272,19 +240,23 @@ def _bar(
     relative = np.where(area > 0, nearby, _largest_nearby(over, part))
     carried = levels.carried(scale, cells, remembers=_remembers(run))
     relative = np.fmax(relative, quotient(_by_cells(model, name, carried, kinds), scale))
+    if name in MOMENTS and _remembers(run):
+        relative = np.fmax(relative, _kept(np.where(area > 0, count * over, np.nan)) / count)
     # What is prescribed does not differ between the grids.
     differs = between_known(by_cells) > run.problem.solver_error * scale
     part = model.of_left_out if levels.steps_shown.any() else model.of_time_error
-    estimated = part * _estimated_by_steps(name, levels, history)
+    estimated = part * estimated_by_steps(name, levels, history)
     by_steps = np.fmax(levels.by_steps, np.where(differs, estimated, 0.0))
     relative += np.nan_to_num(quotient(by_steps, scale))
-    while_receding = model.of_receding * _while_receding(run, levels.left_out, history)
-    receding = np.where(differs, while_receding * quotient(own, scale), 0.0)
+    receding = model.of_receding * while_receding(run, levels.left_out, history)
+    receding = np.where(differs, receding * quotient(own, scale), 0.0)
     relative = np.fmax(relative, receding)
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
     relative += run.problem.surface.splitting_error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
+    if name not in CUMULATIVE:
+        bar = np.where(before_loss(history), BEFORE_LOSS * bar, bar)
     if run.problem.is_coupled:
         bar = COUPLED * bar
     return np.where(np.isnan(own), np.nan, bar)
@@ -312,25 +284,9 @@ def _remembers(run: RunSetup) -> bool:
     return slips_or_adheres or not (problem.surface.creep.is_elastic and problem.motion.stands)
 
 
-def _while_receding(run: RunSetup, left_out: Bools, history: History) -> Floats:
-    """Relative error of a contact that recedes, by the time error of its pressure [-]."""
-    # A rim that loses contact within a step is loaded too long in it. Runs with other steps show
-    # this at the instants that they share.
-    parts = np.where(left_out, 1.0, SHOWN_RECEDING) * history["time_error"]
-    return np.where(recedes(history) & run.problem.motion.stands, parts, 0.0)
-
-
-def _estimated_by_steps(name: str, levels: RefinementLevels, history: History) -> Floats:
-    """Changes of a scalar by the time error of the pressure, where no third run has shown it."""
-    own = np.abs(levels.values[0])
-    largest = moving_maximum(history["time_error"])
-    if levels.steps_shown.any():
-        # At the instants that it has left out, those next to them have shown the smaller ones.
-        largest = np.fmax(history["time_error"] - SHOWN_TIME_ERROR, 0.0)
-    # What a step has added to the work keeps its error.
-    added = np.abs(np.diff(levels.values[0], prepend=0.0))
-    kept = np.nancumsum(largest * added) if name == "work" else largest * own
-    return np.where(levels.steps_shown, 0.0, np.fmax(kept, largest * own))
+def _kept(relative: Floats) -> Floats:
+    """Part of the largest error of moments so far that counts at an instant."""
+    return np.asarray(KEPT_OF_MOMENTS * np.fmax.accumulate(relative))
 
 
 def _largest_nearby(relative: Floats, part: float) -> Floats:
@@ -348,55 +304,3 @@ def _mean_pressure_bar(history: History, values: dict[str, Floats]) -> Floats:
     error = np.fmax(values["force"], values["contact_area"] * history["mean_pressure"])
     bar = np.divide(error, least, out=np.full_like(area, np.nan), where=least > 0)
     return np.where(area > 0, bar, values["peak_pressure"])
-
-
-def _touching(history: History, results: list[CoarserResult]) -> Bools:
-    """Times of contact in the run or in a coarser one."""
-    touching = with_contact(history)
-    for result in results:
-        touching |= np.nan_to_num(aligned("contact_area", history["time"], result)) > 0
-    return touching
-
-
-def _before_first_cell(history: History, touching: Bools) -> Bools:
-    """Times after the first touch at which the contact is still smaller than a cell."""
-    return np.asarray(~np.logical_or.accumulate(touching) & (indentation(history) > 0))
-
-
-def _bound_by_first_contact(values: dict[str, Floats], history: History, touching: Bools) -> None:
-    """Take the scalars of the first cells as errors of a contact smaller than a cell."""
-    early = _before_first_cell(history, touching)
-    contact = with_contact(history)
-    if not early.any() or not contact.any():
-        return
-    first = int(contact.argmax())
-    for name in ZERO_WITHOUT_CONTACT:
-        values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
-
-
-def _bound_in_first_cells(values: dict[str, Floats], history: History) -> None:
-    """Take the way to the peak and place of more cells as error of those of the first cells."""
-    contact, across = with_contact(history), history["cells_across"]
-    first = int(contact.argmax())
-    more = across[first:] > FIRST_CELLS
-    if not more.any():
-        return
-    later = first + int(more.argmax())
-    for name in ("peak_pressure", "eccentricity_x", "eccentricity_y"):
-        ways = np.abs(history[name][later] - history[name][first:later])
-        values[name][first:later] = np.fmax(values[name][first:later], ways)
-
-
-def _certainly_separated(run: RunSetup, history: History, touching: Bools) -> Bools:
-    """Times without contact in the run, and under a given approach without any next to them."""
-    apart = ~with_contact(history)
-    load, times = run.problem.load, history["time"]
-    if load.control == "force":
-        return apart
-    near = moving_maximum(touching, 1) > 0
-    if isinstance(load, MixedHistory):
-        # Under no force, and where the end of contact is what ended a segment, there is none.
-        lost = [event.time for event in load.events if event.scalar == "contact"]
-        unloaded = [time for time in times.tolist() if load.at(time).force is not None]
-        near &= ~np.isin(times, [*lost, *unloaded])
-    return np.asarray(apart & ~near & ~_before_first_cell(history, touching))

@@ -127,7 +127,11 @@ def widen_after_events(
         at = np.flatnonzero((times >= begin) & (times <= end))
         if len(at) < 2 or not error > 0:
             continue
+        # Just before it, the next segment may have begun, of which the first step is known.
+        before = np.flatnonzero((times >= begin - error) & (times < begin))
         for name in values:
+            step = np.abs(history[name][at[1]] - history[name][at[0]])
+            values[name][before] += np.nan_to_num(step)
             rates = np.abs(np.diff(history[name][at]) / np.diff(times[at]))
             fastest = np.fmax(np.append(rates, 0.0), np.append(0.0, rates))
             values[name][at] += error * np.nan_to_num(fastest)

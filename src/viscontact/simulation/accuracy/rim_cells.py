@@ -90,6 +90,14 @@ def fills_period(run: RunSetup, history: History) -> Bools:
     return np.array(np.broadcast_arrays(*fills), dtype=bool)
 
 
+def spans_period(run: RunSetup, history: History) -> Bools:
+    """Times at which the contact reaches through a whole period, and not through two."""
+    extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
+    sizes = np.array(run.grid.size)[:, None]
+    spans = (extents >= (1 - ROUNDING) * sizes) & np.array(run.grid.periodic)[:, None]
+    return np.asarray(spans.any(axis=0) & ~spans.all(axis=0))
+
+
 def cells_across(run: RunSetup, history: History) -> Floats:
     """Cells across the contact, infinite where a whole period is in contact: it has no rim."""
     covered = history["contact_area"] > (1 - ROUNDING) * run.grid.area
