@@ -8,6 +8,7 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
+from viscontact import plot
 from viscontact.results.peak_stress import peak_stress
 
 MU, NU = 0.3, 0.3
@@ -111,3 +112,12 @@ def test_largest_stress_of_a_sliding_ball_is_at_the_surface(sliding: xr.Dataset)
     assert found.value > alone.value
     assert found.depth < alone.depth
     assert found.plane == "x"
+
+
+def test_section_of_a_round_contact_runs_along_the_friction(sliding: xr.Dataset) -> None:
+    """At both instants, also before there is any; without friction along y."""
+    figure = plot.stress_section(sliding)
+    assert [axes.get_xlabel() for axes in figure.axes[:2]][-1].startswith("x")
+    assert all("y =" in axes.get_title(loc="left") for axes in figure.axes[:2])
+    alone = plot.stress_section(sliding.drop_vars(["traction_x", "traction_y"]))
+    assert "x =" in alone.axes[0].get_title(loc="left")

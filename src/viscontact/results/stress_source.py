@@ -95,6 +95,15 @@ class StressSource:
         pressure = self.results["pressure"]
         return ("time", self.stored[list(places)], self.results[pressure.dims[0]].attrs)
 
+    @cached_property
+    def largest_pulls(self) -> tuple[float, float]:
+        """Largest forces of friction along x and y in the run [N]; 0 without friction."""
+        forces = [f"tangential_force_{axis}" for axis in "xy"]
+        if len(self.signs) == 1 or any(name not in self.results for name in forces):
+            return 0.0, 0.0
+        along_x, along_y = (float(np.abs(self.results[name].values).max()) for name in forces)
+        return along_x, along_y
+
     def on_section(
         self,
         places: Sequence[int],

@@ -23,6 +23,9 @@ _GROWN = 3.0
 # Relative difference of equal pressures, from the tolerance of runs.
 _EQUAL = 1e-5
 
+#: Longer over shorter extent of a contact that counts as round.
+_ROUND = 1.2
+
 
 @dataclass(frozen=True)
 class StressPlane:
@@ -113,7 +116,7 @@ def _sections_down_to(
     # The instants of one plane together: their influence coefficients are the same.
     planes: dict[tuple[float | None, float | None], list[int]] = {}
     for index, snapshot in enumerate(touching):
-        planes.setdefault(_plane(snapshot), []).append(index)
+        planes.setdefault(_plane(source, snapshot), []).append(index)
     found: dict[int, StressPlane] = {}
     for number, ((x, y), members) in enumerate(planes.items()):
         own = [touching[index] for index in members]
@@ -125,11 +128,23 @@ def _sections_down_to(
     return [found[index] for index in range(len(touching))]
 
 
-def _plane(snapshot: Snapshot) -> tuple[float | None, float | None]:
-    """The x or the y [m] of the plane through the largest pressure, across the longer extent."""
-    length, width = _extents(snapshot)
+def _plane(source: StressSource, snapshot: Snapshot) -> tuple[float | None, float | None]:
+    """The x or the y [m] of the plane through the largest pressure, along y or along x."""
     i, j = _place_of_peak(snapshot)
-    return (float(snapshot.x[i]), None) if length >= width else (None, float(snapshot.y[j]))
+    is_along_y = _is_along_y(source, snapshot)
+    return (float(snapshot.x[i]), None) if is_along_y else (None, float(snapshot.y[j]))
+
+
+def _is_along_y(source: StressSource, snapshot: Snapshot) -> bool:
+    """True if a plane along y says more than one along x.
+
+    Planes run across the longer extent, in about round contacts along the friction, if any.
+    """
+    length, width = _extents(snapshot)
+    along_x, along_y = source.largest_pulls
+    if max(length, width) < _ROUND * min(length, width) and along_x != along_y:
+        return along_y > along_x
+    return length >= width
 
 
 def _extents(snapshot: Snapshot) -> tuple[float, float]:
@@ -160,21 +175,20 @@ def _section(
 ) -> StressPlane:
     """The part near the contact of the stresses on the plane of an instant."""
     left, right, front, back = snapshot.extent()
-    length, width = _extents(snapshot)
-    is_long = length >= width
-    pressure, normal = snapshot.pressure, 0 if is_long else 1
+    is_along_y = _is_along_y(source, snapshot)
+    pressure, normal = snapshot.pressure, 0 if is_along_y else 1
     is_uniform = np.ptp(pressure, axis=normal).max() <= _EQUAL * pressure.max()
-    across = snapshot.y if is_long else snapshot.x
-    middle = (front + back) / 2 if is_long else (left + right) / 2
-    peak = across[_place_of_peak(snapshot)[is_long]]
+    across = snapshot.y if is_along_y else snapshot.x
+    middle = (front + back) / 2 if is_along_y else (left + right) / 2
+    peak = across[_place_of_peak(snapshot)[is_along_y]]
     near = (np.abs(across - middle) <= _ASIDE * half_width) & (np.abs(across - peak) <= aside)
     return StressPlane(
         snapshot.time,
         across[near],
         depths,
         stress[:, near],
-        "y" if is_long else "x",
-        next((at for at in _plane(snapshot) if at is not None and not is_uniform), None),
+        "y" if is_along_y else "x",
+        next((at for at in _plane(source, snapshot) if at is not None and not is_uniform), None),
         half_width,
         tuple(depth for depth in source.interfaces if depth < depths[-1]),
     )
