@@ -10,7 +10,7 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.simulation.accuracy.rim_cells import cells_of_breadth, spans_period
+from viscontact.simulation.accuracy.rim_cells import cells_of_breadth, in_several_strips
 from viscontact.simulation.transient.setup import prepare_run
 
 
@@ -32,13 +32,14 @@ def test_breadth_of_a_turned_ellipse_is_its_shorter_axis(angle: float) -> None:
     assert cells_of_breadth(run, history)[0] == close_to(short, rel=1e-6)
 
 
-def test_strips_span_the_period_along_them_until_both_are_in_contact() -> None:
-    """Waves along x on periods of 4 by 1: apart, spots, strips, and the whole surface."""
+def test_several_strips_have_gaps_and_reach_through_one_period() -> None:
+    """Waves along x on periods of 4 by 1: apart, spots, one strip, two, and the whole surface."""
     elastic, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((16, 4), (4.0, 1.0), periodic=True)
-    waves = vc.Waviness(1e-3, wavelength_x=4.0)
+    waves = vc.Waviness(1e-3, wavelength_x=2.0)
     run = prepare_run(Problem(waves, elastic, vc.step(1.0), grid, [0.0]))
     history = {
-        "contact_length": np.array([0.0, 0.5, 2.5, 4.0]),
-        "contact_width": np.array([0.0, 0.75, 1.0, 1.0]),
+        "contact_length": np.array([0.0, 0.5, 1.0, 3.0, 4.0]),
+        "contact_width": np.array([0.0, 0.75, 1.0, 1.0, 1.0]),
+        "contact_area": np.array([0.0, 0.3, 1.0, 2.0, 4.0]),
     }
-    assert spans_period(run, history).tolist() == [False, False, True, False]
+    assert in_several_strips(run, history).tolist() == [False, False, False, True, False]

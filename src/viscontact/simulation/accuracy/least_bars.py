@@ -25,8 +25,8 @@ from viscontact.simulation.accuracy.rim_cells import (
     cells_over_thickness,
     crest_cells,
     fills_period,
+    in_several_strips,
     slenderness,
-    spans_period,
     thin_rim_cells,
     tip_curvature,
 )
@@ -67,8 +67,8 @@ STEEP_RIM_CELLS = 18.0
 #: where the pressure is largest near the rim.
 LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.28, 0.06
 
-#: The same of strips through a whole period, times the cells across: both rims lie alike within all
-#: cells along them.
+#: The same of several strips through a whole period, times the cells across all of them: each has
+#: fewer, and its rims lie alike within all cells along them.
 STRIP_AREA_ERROR = 0.04
 
 #: Least error of the rim in cells, in the mean and of an extent, where a contact on a creeping body
@@ -320,7 +320,7 @@ def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Flo
     smooth = smooth + 4 * RECEDING_RIM_CELLS * _just_receding(run, history) / breadth
     steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
     tip = TIP_AREA * tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
-    strip = np.where(spans_period(run, history), STRIP_AREA_ERROR / across, 0.0)
+    strip = np.where(in_several_strips(run, history), STRIP_AREA_ERROR / across, 0.0)
     relative = np.max(np.broadcast_arrays(smooth, steep, tip, strip), axis=0)
     return np.asarray(relative * history["contact_area"])
 

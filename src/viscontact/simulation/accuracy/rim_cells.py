@@ -22,6 +22,9 @@ THIN_RIM_CELLS, MOST_THIN_RIM = 0.12, 0.5
 #: Least part of a rectangle around a contact that one round spot fills; an ellipse fills 0.79.
 ROUND_SPOT = 0.6
 
+#: Least part of that rectangle that a single strip fills.
+ONE_STRIP = 0.98
+
 #: Extents of the contact along x and y.
 EXTENTS = ("contact_length", "contact_width")
 
@@ -90,12 +93,13 @@ def fills_period(run: RunSetup, history: History) -> Bools:
     return np.array(np.broadcast_arrays(*fills), dtype=bool)
 
 
-def spans_period(run: RunSetup, history: History) -> Bools:
-    """Times at which the contact reaches through a whole period, and not through two."""
+def in_several_strips(run: RunSetup, history: History) -> Bools:
+    """Times at which strips with gaps reach through one whole period, and not through two."""
     extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
     sizes = np.array(run.grid.size)[:, None]
     spans = (extents >= (1 - ROUNDING) * sizes) & np.array(run.grid.periodic)[:, None]
-    return np.asarray(spans.any(axis=0) & ~spans.all(axis=0))
+    gaps = history["contact_area"] < ONE_STRIP * extents.prod(axis=0)
+    return np.asarray(spans.any(axis=0) & ~spans.all(axis=0) & gaps)
 
 
 def cells_across(run: RunSetup, history: History) -> Floats:
