@@ -50,8 +50,11 @@ axes = figure.axes[0]
 axes.plot(
     [1e9 * state.approach for state in states],
     [1e6 * state.force for state in states],
-    *("o",),
-    **{"color": "black", "markersize": 3.5, "markerfacecolor": "none", "label": "Maugis 1992"},
+    "o",
+    color="black",
+    markersize=3.5,
+    markerfacecolor="none",
+    label="Maugis 1992",
 )
 axes.legend(frameon=False)
 

@@ -28,7 +28,7 @@ body = vc.Material(vc.Elastic(modulus / 4), poisson_ratio=0.5)
 warnings.simplefilter("ignore", vc.AccuracyWarning)
 
 
-def pull_off(law, tabor, cells=56):
+def pull_off(law: str, tabor: float, cells: int = 56) -> float:
     """Largest pull of a sphere that is withdrawn from contact [π w R]."""
     reach = np.cbrt(radius * (work / modulus) ** 2) / tabor
     size = (6.5 if tabor > 0.5 else 11) * length
@@ -39,14 +39,12 @@ def pull_off(law, tabor, cells=56):
         errors=False,
         fields="none",
     )
-    return found.attrs["pull_off_force"] / unit
+    return float(found.attrs["pull_off_force"] / unit)
 
 
 tabors = np.array([0.15, 0.3, 0.6, 1.0])
-pulls = {
-    law: np.array([pull_off(law, each) for each in tabors])
-    for law in ("dugdale", "exponential", "lennard-jones")
-}
+laws = ("dugdale", "exponential", "lennard-jones")
+pulls = {law: np.array([pull_off(law, each) for each in tabors]) for law in laws}
 
 # %%
 # The figure

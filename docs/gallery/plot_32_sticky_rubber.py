@@ -17,6 +17,7 @@ import warnings
 
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
 
 import viscontact as vc
 
@@ -31,7 +32,7 @@ grid = vc.Grid((40, 40), (8 * length, 8 * length))
 warnings.simplefilter("ignore", vc.AccuracyWarning)
 
 
-def withdrawn(speed, dwell):
+def withdrawn(speed: float, dwell: float) -> xr.Dataset:
     """Run of a sphere that rests at the touching approach, and is withdrawn [depths/s, s]."""
     way = np.array([0.0, 0.0, -5.0]) * depth
     times = np.array([0.0, dwell, dwell + 5.0 / speed])
