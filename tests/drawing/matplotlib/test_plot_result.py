@@ -102,8 +102,8 @@ def test_a_figure_is_as_wide_as_the_column(width: str | float, millimetres: floa
     for name in set(FIGURES) - (OF_FRICTION | OF_PERIODS | OF_ADHESION):
         figure = FIGURES[name](results["sphere"], width=width)
         assert figure.get_figwidth() * 25.4 == close_to(millimetres, abs=0.1), name
-    for name, compare in COMPARISONS.items():
-        figure = compare({"a": results["roller"]}, width=width)
+    for name in set(COMPARISONS) - {"friction"}:  # of steady motion
+        figure = COMPARISONS[name]({"a": results["roller"]}, width=width)
         assert figure.get_figwidth() * 25.4 == close_to(millimetres, abs=0.1), name
 
 

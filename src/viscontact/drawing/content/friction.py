@@ -37,8 +37,9 @@ from viscontact.units.formatting import readable_unit
 NAME = "friction_coefficient"
 #: Bodies of constant curvature along their motion.
 _ROUND = (Paraboloid, Sphere, Roller)
-#: Speeds of the curves of the limits, and room above and below the values, as a factor.
-_SAMPLES, _ROOM = 60, 1.3
+#: Speeds of the curves of the limits, and room above and below the values, as a factor: with
+#: limits, which are drawn as far as they lie within, and of values alone.
+_SAMPLES, _ROOM, _LITTLE_ROOM = 60, 2.0, 1.3
 
 
 def friction_panel(
@@ -78,7 +79,7 @@ def frictions_panel(runs: Mapping[str, xr.Dataset]) -> Panel:
     """Panel of several results over speed, in order, by name."""
     values = np.concatenate([run[NAME].values for run in runs.values()])
     positive, variable = values[values > 0], SCALARS[NAME]
-    limits = float(positive.min()) / _ROOM, float(positive.max()) * _ROOM
+    limits = float(positive.min()) / _LITTLE_ROOM, float(positive.max()) * _LITTLE_ROOM
     speeds = np.concatenate([run["speed"].values for run in runs.values()])
     return Panel(
         Axis("Speed", readable_unit("m/s", speeds), scale="log"),
