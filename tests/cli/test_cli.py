@@ -739,7 +739,10 @@ def test_instant_that_is_not_stored_is_drawn_nearby_and_said(
 
 
 def test_without_matplotlib_a_line_says_what_to_install(
-    finished: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    finished: Path,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     for name in [name for name in sys.modules if name.startswith("viscontact.drawing.matplotlib")]:
         monkeypatch.delitem(sys.modules, name)
@@ -751,7 +754,7 @@ def test_without_matplotlib_a_line_says_what_to_install(
         message = capsys.readouterr().err
         assert "pip install 'viscontact[plot]'" in message
         assert len(message.splitlines()) == 1
-    assert not Path("viscontact-demo").exists()  # refused before the run
+    assert not (folder / "viscontact-demo").exists()  # refused before the run
 
 
 def test_compare_overlays_runs_and_refuses_a_single_one(

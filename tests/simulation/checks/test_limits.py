@@ -104,7 +104,7 @@ def test_a_ball_that_rolls_any_way_comes_round_after_its_circumference(angle):
 )
 def test_endless_body_needs_a_grid_that_is_periodic_along_it(radii, periodic):
     with pytest.raises(ValueError, match=re.escape(f"'periodic: {periodic}'")):
-        check_endless(vc.Paraboloid(*radii), None)
+        check_endless(vc.Paraboloid(*radii), vc.Grid((8, 8), (1e-3, 1e-3)))
 
 
 def test_approach_has_no_datum_along_one_periodic_axis():

@@ -97,7 +97,7 @@ def test_largest_loads_are_found_between_the_kinks_of_a_curved_load():
     ("given", "message"),
     [
         ({"body": vc.Cone(0.3)}, "round where they touch"),
-        ({"body": vc.Paraboloid(math.inf, RADIUS)}, "the body continues along"),
+        ({"body": vc.Paraboloid(math.inf, RADIUS)}, "round where they touch"),
         ({"sticks": adhesion(30.0)}, "cells of the grid, more than an automatic one has; use a"),
     ],
 )

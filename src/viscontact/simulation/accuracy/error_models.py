@@ -39,14 +39,13 @@ class ErrorModel:
 #: Approach, force, its offset and work, also where a contact reaches the end of a body: pressure is
 #: singular there, and the cells approximate the end by a staircase.
 _BULK = ErrorModel(
-    *(2.0, 1.01),
+    *(2.0, 1.15),
     at_end=ErrorModel(0.7, 1.2),
     of_time_error=0.1,
     of_left_out=0.1,
     of_receding=0.1,
-    of_neighbours=0.5,
+    of_neighbours=0.6,
 )
-_TILT = replace(_BULK, factor=1.15)
 _FORCE = ErrorModel(
     *(2.0, 1.0),
     at_end=ErrorModel(0.7, 1.2),
@@ -132,8 +131,8 @@ ERROR_MODELS = {
     "eccentricity_x": _OFFSET,
     "eccentricity_y": _OFFSET,
     "approach": _BULK,
-    "tilt_x": _TILT,
-    "tilt_y": _TILT,
+    "tilt_x": _BULK,
+    "tilt_y": _BULK,
     "contact_area": _AREA,
     "contact_length": _EXTENT,
     "contact_width": _EXTENT,
