@@ -12,7 +12,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from viscontact.bodies import loads
 from viscontact.bodies.loads.motion import Motion
-from viscontact.bodies.loads.steady_motion import SteadyMotion
+from viscontact.bodies.loads.steady_motion import SteadyMotion, checked_creepages
 from viscontact.case.data_file import DataFile
 from viscontact.case.quantities import (
     Creepage,
@@ -172,10 +172,34 @@ class SpeedRange(Section):
         return tuple(space(self.first, self.to, self.count).tolist())
 
 
-def _form_of_speed(given: Any) -> str:
+def _form_of_several(given: Any) -> str:
     if isinstance(given, list | tuple):
         return "list"
-    return "range" if isinstance(given, dict | SpeedRange) else "one"
+    return "range" if isinstance(given, dict | Section) else "one"
+
+
+class CreepageRange(Section):
+    """Creepages from one to another."""
+
+    first: Creepage = Field(alias="from", description="first creepage")
+    to: Creepage = Field(description="last creepage")
+    count: SpeedCount = Field(description="number of creepages, with both ends")
+    spacing: Literal["log", "uniform"] = Field(
+        default="uniform",
+        description="log: equal ratios of neighbours; uniform: equal differences",
+    )
+
+    @model_validator(mode="after")
+    def _has_ratios(self) -> CreepageRange:
+        if self.spacing == "log" and not self.first * self.to > 0:
+            raise ValueError("spacing: log needs two creepages of one sign, neither of them 0")
+        return self
+
+    @property
+    def creepages(self) -> tuple[float, ...]:
+        """The creepages [-]."""
+        space = np.geomspace if self.spacing == "log" else np.linspace
+        return tuple(space(self.first, self.to, self.count).tolist())
 
 
 class Steady(MotionSection):
@@ -186,7 +210,7 @@ class Steady(MotionSection):
         Annotated[Speed, Tag("one")]
         | Annotated[list[Speed], Field(min_length=1), Tag("list")]
         | Annotated[SpeedRange, Tag("range")],
-        Discriminator(_form_of_speed),
+        Discriminator(_form_of_several),
     ] = Field(
         description="speed towards +x or +y, or several, each of which is computed",
         examples=[
@@ -198,6 +222,20 @@ class Steady(MotionSection):
     along: Literal["x", "y"] = Field(
         default="y", description="axis of the motion; a roller rolls along y"
     )
+    creepage: (
+        Annotated[
+            Annotated[Creepage, Tag("one")]
+            | Annotated[list[Creepage], Field(min_length=1), Tag("list")]
+            | Annotated[CreepageRange, Tag("range")],
+            Discriminator(_form_of_several),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="under friction: surface speed of the body that rolls over its travel, less 1, "
+        "or several, each of which is computed; positive if it drives",
+        examples=["0.3 %", ["0.1 %", "1 %"], {"from": "0.1 %", "to": "2 %", "count": 10}],
+    )
 
     def build(self) -> SteadyMotion:
         """Return the motion."""
@@ -206,7 +244,16 @@ class Steady(MotionSection):
             speeds = given.speeds
         else:
             speeds = tuple(given) if isinstance(given, list) else (given,)
-        return SteadyMotion(speeds, self.along, self.rolling)
+        return SteadyMotion(speeds, self.along, self.rolling, self._creepages)
+
+    @property
+    def _creepages(self) -> tuple[float, ...]:
+        given = self.creepage
+        if isinstance(given, CreepageRange):
+            return given.creepages
+        if given is None:
+            return ()
+        return checked_creepages(given, rolling=self.rolling)
 
 
 AnyMotion = Annotated[Travel | Reciprocating | Steady, ChosenBy("kind")]

@@ -132,9 +132,10 @@ class CaseFile(Section):
             raise ValueError(
                 "adhesion: it is not supported in steady motion; leave this section out"
             )
-        if steady and self.friction is not None:
+        if steady and self.tangential is not None:
             raise ValueError(
-                "friction: it is not supported in steady motion; leave this section out"
+                "tangential: a body in steady motion rolls under friction by the creepage of its "
+                "motion; leave this section out and write 'creepage: [0.1 %, 1 %]' in motion"
             )
         grips = self.friction is not None
         adheres = self.adhesion is not None

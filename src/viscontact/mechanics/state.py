@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
 from viscontact.bodies.grid import Grid
+from viscontact.mechanics.rolling_traction import RollingTraction
 
 
 class Outcome(IntEnum):
@@ -43,6 +44,9 @@ FRICTION = "friction"
 
 #: Part of a state that only bodies have that roll with traction.
 ROLLING = "rolling"
+
+#: Part of a state that only bodies have that roll in steady motion with traction.
+OVER_CREEPAGE = "traction over creepage"
 
 #: Part of a state of a run whose case names a fluid that leaks.
 LEAKAGE = "leakage"
@@ -230,6 +234,8 @@ class ContactState:
         state ends where it reaches 1. NaN once a force has pulled the bodies apart [-].
     stage_position : float or None
         Position of the stage on whose spring the body hangs [m]; None without one.
+    rolling_traction : RollingTraction or None
+        Tractions over the creepage of a body that rolls in steady motion; None otherwise.
 
     Examples
     --------
@@ -320,6 +326,7 @@ class ContactState:
     adhesion_energy: float | None = None
     stability: float | None = None
     stage_position: float | None = None
+    rolling_traction: RollingTraction | None = None
 
     @property
     def over(self) -> Literal["time", "speed"]:
@@ -341,9 +348,10 @@ class ContactState:
         across = set() if self.leak_rate_y is None else {LEAKAGE_Y}
         adhering = set() if self.least_pressure is None else {ADHESION}
         staged = set() if self.stage_position is None else {STAGE}
+        curved = set() if self.rolling_traction is None else {OVER_CREEPAGE}
         clocked = {name for name in OF_CLOCKS if getattr(self, name) is not None}
         return frozenset(
-            moving | gripping | rolling | leaking | across | adhering | staged | clocked
+            moving | gripping | rolling | leaking | across | adhering | staged | curved | clocked
         )
 
     @property
@@ -368,4 +376,5 @@ class ContactState:
         nothing: dict[str, Any] = {
             name: np.empty((0, 0), getattr(self, name).dtype) for name in self.field_names
         }
-        return replace(self, **nothing, line_load=np.empty(0))
+        traction = self.rolling_traction and self.rolling_traction.without_fields()
+        return replace(self, **nothing, line_load=np.empty(0), rolling_traction=traction)

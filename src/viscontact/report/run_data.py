@@ -17,7 +17,7 @@ from viscontact.results.run_axis import in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.summary import summary_scalars
-from viscontact.results.variables import SCALARS, Place
+from viscontact.results.variables import SCALARS, Place, scalars_in
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:
@@ -31,7 +31,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
     return {
         "title": title_of(ds),
         "axis": _axis(ds),
-        "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
+        "scalars": {name: _scalar(ds, name) for name in scalars_in(ds)},
         "facts": shown_labels(ds, Place.FACTS),
         "worst": _worst(ds),
         "listed": summary_scalars(ds),

@@ -16,11 +16,15 @@ from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     AXES,
     COORDINATES,
+    CREEPAGE,
     ERRORS,
     LINES,
+    curve_of,
+    curves_of,
     error_name,
     field_axis_attributes,
     fields_of,
+    fields_over_creepage,
     parts_of,
     scalar_attributes,
     scalars_of,
@@ -39,7 +43,7 @@ def to_dataset(
     # The fields lie on an axis of their own unless all states keep them.
     over = states[0].over
     values = np.array([getattr(state, over) for state in states])
-    scalars = {
+    scalars: dict[str, Any] = {
         name: (
             over,
             np.array([value_of(state, name) for state in states], dtype=variable.kind),
@@ -48,11 +52,26 @@ def to_dataset(
         for name, variable in scalars_of(parts_of(states[0]), over).items()
     }
     scalars |= {
-        error_name(name): (over, bars, ERRORS[error_name(name)].attributes)
+        name: (
+            (over, "creepage"),
+            np.stack([curve_of(state, name) for state in states]),
+            scalar_attributes(name, errors=errors is not None),
+        )
+        for name in curves_of(parts_of(states[0]))
+    }
+    scalars |= {
+        error_name(name): (
+            (over, "creepage")[: bars.ndim],
+            bars,
+            ERRORS[error_name(name)].attributes,
+        )
         for name, bars in with_errors_per_length(errors or {}, states[0].grid).items()
     }
     grid = states[-1].grid  # the widest: a grid is enlarged only
-    dataset = xr.Dataset(scalars, coords=_coordinates(grid, over, values))
+    places = _coordinates(grid, over, values)
+    if (traction := states[0].rolling_traction) is not None:
+        places["creepage"] = ("creepage", traction.creepage, CREEPAGE.attributes)
+    dataset = xr.Dataset(scalars, coords=places)
     kept = [state for state in states if state.pressure.size]
     if kept:
         dataset = dataset.assign(_field_arrays(kept, grid, field_axis))
@@ -83,6 +102,14 @@ def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict
             variable.attributes,
         )
         for name, variable in LINES.items()
+    }
+    arrays |= {
+        name: (
+            (axis, "creepage", "x", "y"),
+            np.stack([getattr(s.rolling_traction, name) for s in states]),
+            variable.attributes,
+        )
+        for name, variable in fields_over_creepage(states[0].parts).items()
     }
     over = states[0].over
     if axis != over:

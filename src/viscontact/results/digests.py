@@ -67,7 +67,7 @@ def _attributes_digest(place: Any, start: int = 0) -> int:
 class RunningDigests:
     """Digests of a file to which rows are added; they are of what was written into it.
 
-    A block with a digest of its own is one row.
+    A block with a digest of its own is one row, or one at each creepage of a row.
     """
 
     def __init__(self, file: netCDF4.Dataset) -> None:
@@ -87,8 +87,10 @@ class RunningDigests:
 
     def put(self, file: netCDF4.Dataset, name: str, row: int, rows: Any) -> None:
         """Store the digests of consecutive rows of a variable along several axes."""
-        found = [digest_of(values, self._begin[name]) for values in rows]
-        file[GROUP].variables[name][row : row + len(found)] = np.array(found, np.uint32)
+        stored, start = file[GROUP].variables[name], self._begin[name]
+        leading = np.shape(rows)[: stored.ndim]
+        found = [digest_of(rows[place], start) for place in np.ndindex(leading)]
+        stored[row : row + len(rows)] = np.array(found, np.uint32).reshape(leading)
 
     def store(self, file: netCDF4.Dataset) -> None:
         """Store the digests of the attributes and of the variables along one axis."""

@@ -12,11 +12,12 @@ from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads import TangentialLoad
 from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.stated_errors import errors_of
+from viscontact.results.variables import scalars_in
 
 
 def is_gripping(results: xr.Dataset) -> bool:
-    """True for a run under friction."""
-    return "slip_fraction" in results
+    """True for a run under friction over time."""
+    return bool(scalars_in(results, ["slip_fraction"]))
 
 
 def require_grip(results: xr.Dataset, figure: str) -> None:

@@ -13,7 +13,7 @@ from viscontact.mechanics.state import Outcome
 from viscontact.results.margins import margins
 from viscontact.results.run_axis import run_axis
 from viscontact.results.snapshots import field_times
-from viscontact.results.variables import SCALARS, error_name
+from viscontact.results.variables import SCALARS, error_name, scalars_in
 from viscontact.units.formatting import column_heading, format_quantity
 
 
@@ -67,12 +67,12 @@ def _header(ds: xr.Dataset) -> Iterator[str]:
 
 def _scalars(ds: xr.Dataset) -> list[str]:
     """The scalars of a result; older ones lack the latest."""
-    return [name for name in SCALARS if name in ds]
+    return scalars_in(ds)
 
 
 def _errors(ds: xr.Dataset) -> list[str]:
     """The errors that a result states; older ones do not."""
-    return [error_name(name) for name in SCALARS if error_name(name) in ds]
+    return scalars_in(ds, map(error_name, SCALARS))
 
 
 def _rows(ds: xr.Dataset) -> Iterator[list[object]]:

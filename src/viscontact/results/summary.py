@@ -24,7 +24,13 @@ from viscontact.results.stated_errors import (
     is_rounding,
     largest_error,
 )
-from viscontact.results.variables import MESH_DEPENDENT, SCALARS, scalars_with_error, shown_name
+from viscontact.results.variables import (
+    MESH_DEPENDENT,
+    SCALARS,
+    scalars_in,
+    scalars_with_error,
+    shown_name,
+)
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 if TYPE_CHECKING:
@@ -83,7 +89,7 @@ def summary_rows(ds: Result) -> list[SummaryRow]:
 
 def summary_scalars(ds: Result) -> list[str]:
     """Scalars of a result that have errors, are of use, and are more than rounding."""
-    names = [name for name in scalars_with_error() if name in ds and is_shown(ds, name)]
+    names = [name for name in scalars_in(ds, scalars_with_error()) if is_shown(ds, name)]
     return [name for name in names if not is_rounding(ds, name)]
 
 

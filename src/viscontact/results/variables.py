@@ -23,6 +23,7 @@ from viscontact.mechanics.state import (
     LEAKAGE,
     LEAKAGE_Y,
     MOTION,
+    OVER_CREEPAGE,
     ROLLING,
     STAGE,
     ContactState,
@@ -452,6 +453,53 @@ SCALARS = {
 }
 
 
+#: Coordinate of the tractions of a body that rolls in steady motion.
+CREEPAGE = Variable("1", "surface speed of the body over its travel, less 1")
+
+
+def _curves() -> dict[str, Variable]:
+    """Values over the creepage, those per unit length of a line contact after each."""
+    names = ("tangential_force_x", "tangential_force_y", "drive_torque", "stick_area")
+    found = {name: SCALARS[name] for name in (*names, "slip_fraction", "friction_power")}
+    found["traction_dissipation"] = _scalar(
+        *("W", "power lost in the bodies under the tractions", "Dissipation under tractions", 0)
+    )
+    found["slip_residual"] = Variable("1", "relative violation of the friction law")
+    curves = {}
+    for name, variable in found.items():
+        curves[name] = replace(variable, of=OVER_CREEPAGE)
+        if name in (*_OF_A_PERIOD, "traction_dissipation"):
+            curves[per_length(name)] = _per_unit_length(name, curves[name])
+    return curves
+
+
+#: Values at each creepage of a body that rolls in steady motion. Some have the names of scalars.
+CURVES = _curves()
+
+
+def curves_of(parts: Container[str] = ()) -> dict[str, Variable]:
+    """Values over the creepage of a result with some parts."""
+    return {name: each for name, each in CURVES.items() if each.of in parts}
+
+
+def curves_with_error() -> list[str]:
+    """Names of the values over the creepage whose error is estimated, of a period."""
+    return [name for name, each in CURVES.items() if each.has_error and not each.per_length_of]
+
+
+def curve_of(state: ContactState, name: str) -> Floats:
+    """Values of a state over the creepage."""
+    period, length = CURVES[name].per_length_of, state.grid.line_length
+    values: Floats = getattr(state.rolling_traction, period or name)
+    return values / length if period and length else values
+
+
+def scalars_in(results: Any, names: Iterable[str] | None = None) -> list[str]:
+    """Names of the scalars that a result has, in their order; not what it has over the creepage."""
+    names = SCALARS if names is None else names
+    return [name for name in names if name in results and "creepage" not in results[name].dims]
+
+
 #: Scalars of the flow through the gap, of runs whose case names a fluid.
 OF_LEAKAGE = tuple(name for name, each in SCALARS.items() if each.of == LEAKAGE and each.label)
 
@@ -502,7 +550,7 @@ def with_errors_per_length(errors: Mapping[str, Floats], grid: Grid) -> dict[str
     length, found = grid.line_length, dict(errors)
     if length is None:
         return found
-    known = {name: each.per_length_of for name, each in SCALARS.items()}
+    known = {name: each.per_length_of for name, each in (CURVES | SCALARS).items()}
     return found | {
         name: errors[period] / length for name, period in known.items() if period in errors
     }
@@ -511,6 +559,11 @@ def with_errors_per_length(errors: Mapping[str, Floats], grid: Grid) -> dict[str
 def fields_of(parts: Container[str] = ()) -> dict[str, Variable]:
     """Fields over the cells of a result: those that all have, and those of its parts."""
     return EVERY_FIELD if FRICTION in parts else FIELDS
+
+
+def fields_over_creepage(parts: Container[str] = ()) -> dict[str, Variable]:
+    """Fields over the cells at each creepage of a result with some parts."""
+    return FRICTION_FIELDS if OVER_CREEPAGE in parts else {}
 
 
 def field_axis_attributes(over: str) -> dict[str, Any]:
@@ -545,7 +598,12 @@ def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[st
     names = [name for name in names if stored is None or not is_of_period(name, stored)]
     in_table = place in Place.TABLE | Place.KEY
     names = names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
-    return [name for name in names if stored is None or name in stored]
+    if stored is None:
+        return names
+    # Progress logs are names, without dimensions.
+    return (
+        scalars_in(stored, names) if hasattr(stored, "dims") else [n for n in names if n in stored]
+    )
 
 
 def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[str, str]:
@@ -586,14 +644,15 @@ ERRORS = {
     error_name(name): Variable(
         variable.units, f"estimated error of: {variable.long_name}", comment=_BAR
     )
-    for name, variable in SCALARS.items()
+    for name, variable in (CURVES | SCALARS).items()
     if variable.has_error
 }
 
 
 def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     """Attributes of a scalar, with CF's pointer to its error if the result has errors."""
-    attributes = SCALARS[name].attributes
-    if (errors and SCALARS[name].has_error) or error_name(name) in SCALARS:
+    variable = (CURVES | SCALARS)[name]
+    attributes = variable.attributes
+    if (errors and variable.has_error) or error_name(name) in SCALARS:
         attributes["ancillary_variables"] = error_name(name)
     return attributes

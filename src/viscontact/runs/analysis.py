@@ -89,6 +89,11 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
         """Instants [s] or speeds [m/s] of the states, as far as they are known."""
 
     @property
+    def creepages(self) -> tuple[float, ...]:
+        """Creepages of a body that rolls in steady motion with traction [-]."""
+        return ()
+
+    @property
     def fields(self) -> KeptFields:
         """Choice of the fields that are kept."""
         return self.contact.kept

@@ -44,6 +44,11 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
         return self.setup.problem.speeds
 
     @property
+    def creepages(self) -> tuple[float, ...]:
+        """Creepages at which tractions are found [-]."""
+        return self.setup.problem.motion.creepages
+
+    @property
     def work(self) -> float:
         """Cells times speeds."""
         return float(sum(grid.shape[0] * grid.shape[1] for grid in self.setup.grids))
@@ -133,5 +138,14 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
         low, high = (
             format_quantity(float(each), "m/s") for each in (self.places.min(), self.places.max())
         )
-        count = len(self.places)
-        return [("speeds", f"{count}, from {low} to {high}") if count > 1 else ("speed", low)]
+        count, creepages = len(self.places), self.creepages
+        rows = [("speeds", f"{count}, from {low} to {high}") if count > 1 else ("speed", low)]
+        if creepages:
+            ends = f"from {min(creepages):.4g} to {max(creepages):.4g}"
+            several = len(creepages) > 1
+            rows.append(
+                ("creepages", f"{len(creepages)}, {ends}")
+                if several
+                else ("creepage", f"{creepages[0]:.4g}")
+            )
+        return rows

@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.bodies.adhesion import Adhesion
+from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
@@ -42,12 +43,14 @@ def steady(  # noqa: PLR0913
     errors: bool = True,
     temperature: TemperatureHistory | float | None = None,
     adhesion: Adhesion | None = None,
+    friction: Friction | float | None = None,
+    creepage: ArrayLike | None = None,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
     The steady state is solved for at once, without steps in time, at one speed or at each of a
-    curve of speeds. There is no friction in the contact: the body is held back by the loss in the
-    material alone.
+    curve of speeds. Without friction the body is held back by the loss in the material alone. With
+    `friction` and `creepage` it rolls with traction, at each speed under each of the creepages.
 
     Parameters
     ----------
@@ -90,6 +93,12 @@ def steady(  # noqa: PLR0913
         laws; when left out, laws are used as they are.
     adhesion : Adhesion, optional
         Not supported in steady motion, and refused; leave it out.
+    friction : Friction or float, optional
+        Coulomb friction under a body that rolls, or its coefficient; it needs a `creepage`.
+    creepage : float or array_like, optional
+        Surface speed of the body over its travel, less 1, or several, each between -1 and 1:
+        positive where the body drives, and pushes the half-space backwards; negative where it
+        brakes.
 
     Returns
     -------
@@ -99,6 +108,15 @@ def steady(  # noqa: PLR0913
         attributes. ``x`` and ``y`` are relative to the body's axis. ``resistance_x`` and
         ``resistance_y`` are forces of the half-space against +x and +y, ``friction_coefficient`` is
         the resistance over the force, and ``dissipation`` the power lost.
+
+        Under friction there is the dimension ``creepage``. Over (speed, creepage) are
+        ``tangential_force_x`` and ``tangential_force_y`` [N], the forces of the body on the
+        half-space; ``drive_torque`` [N m], their moment that the drive balances; ``stick_area``
+        [m²], ``slip_fraction``, ``friction_power`` [W], the heat of friction, and
+        ``traction_dissipation`` [W], the power lost in the bodies under the tractions, beside
+        ``dissipation`` under the pressure; over (speed or field_speed, creepage, x, y)
+        ``traction_x``, ``traction_y``, ``slip_x``, ``slip_y``, ``slip_state`` and
+        ``friction_work``.
 
         On chosen grids the fields of all speeds are on the smallest grid that holds their grids;
         beyond its own, pressure is 0, and gap and displacement are NaN. On a fluid the approach is
@@ -130,10 +148,16 @@ def steady(  # noqa: PLR0913
     The resistance is ∫ p (∂h/∂ξ) dA, or the power of the dashpots over the speed, whichever is the
     more accurate; their difference is part of its error.
 
+    Tractions displace the surface along itself in the same way. Where the surface sticks its
+    displacement grows backwards by the creepage times the way, from the leading edge on; it slips
+    where this would take more than friction times the pressure (Carter 1926). Pressure and
+    tractions must not be coupled: two equal bodies, Poisson's ratio 1/2, or
+    ``Friction(..., coupling=False)``.
+
     References
     ----------
     S. C. Hunter, J. Appl. Mech. 28 (1961) 611; I. G. Goryacheva, *Contact Mechanics in Tribology*,
-    Kluwer 1998, chapter 6.
+    Kluwer 1998, chapter 6; F. W. Carter, Proc. R. Soc. Lond. A 112 (1926) 151.
 
     Examples
     --------
@@ -143,9 +167,15 @@ def steady(  # noqa: PLR0913
     >>> ds = vc.steady(ball, rubber, load, [0.001, 0.1, 10.0])
     >>> ds.friction_coefficient.values.round(4).tolist()
     [0.0009, 0.0476, 0.0025]
+
+    The same ball drives, with a surface speed that is 0.5 or 5 % above its travel:
+
+    >>> ds = vc.steady(ball, rubber, load, 0.1, friction=0.5, creepage=[0.005, 0.05])
+    >>> ds.tangential_force_y.values.round(2).tolist()
+    [[]]
     """
     report = reported(progress, ProgressBar("speed"))
-    motion = steady_motion(speed, along, rolling)
+    motion = steady_motion(speed, along, rolling, creepage)
     contact = contact_problem(
         indenter=indenter,
         material=material,
@@ -157,6 +187,7 @@ def steady(  # noqa: PLR0913
         motion=motion,
         temperature=temperature,
         adhesion=adhesion,
+        friction=friction,
     )
     problem = steady_problem(contact, motion)
     return solve(OverSpeed(prepare(problem, threads), errors), report)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
-from viscontact.bodies.loads.motion import AtOrigin
+from viscontact.bodies.loads.motion import AtOrigin, checked_creepage
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
 
@@ -22,18 +22,39 @@ class SteadyMotion(AtOrigin):
     speeds: tuple[float, ...]
     along: str
     rolling: bool | None = None
+    #: Surface speeds of a body that rolls over its travel, less 1 [-]; none without traction.
+    creepages: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         checked_speeds("speed", self.speeds)
+        checked_creepages(self.creepages, rolling=self.rolling)
 
 
-def steady_motion(speed: ArrayLike, along: str, rolling: bool | None) -> SteadyMotion:
+def steady_motion(
+    speed: ArrayLike, along: str, rolling: bool | None, creepage: ArrayLike | None = None
+) -> SteadyMotion:
     """Return the motion of the arguments of `steady`."""
     if along not in ("x", "y"):
         raise ValueError(f"along must be 'x' or 'y', got {along!r}")
     if rolling is not None and not isinstance(rolling, bool | np.bool_):
         raise ValueError(f"rolling must be True, False or None, got {rolling!r}")
-    return SteadyMotion(tuple(checked_speeds("speed", speed).tolist()), along, rolling)
+    creepages = () if creepage is None else checked_creepages(creepage, rolling=rolling)
+    if creepage is not None and not creepages:
+        raise ValueError("creepage: at least one is needed, got none; leave the argument out")
+    return SteadyMotion(tuple(checked_speeds("speed", speed).tolist()), along, rolling, creepages)
+
+
+def checked_creepages(given: ArrayLike, *, rolling: bool | None) -> tuple[float, ...]:
+    """Return distinct creepages of a body that does not slide, from one or a list of them [-]."""
+    creepages = np.atleast_1d(real_array("creepage", given, "1"))
+    if creepages.ndim != 1:
+        raise ValueError(f"creepage must be a number or a list of them, got {given!r}")
+    for each in creepages.tolist():
+        checked_creepage(each, rolling=rolling)
+    found, count = np.unique_counts(creepages)
+    if (count > 1).any():
+        raise ValueError(f"creepage: each is needed once, got {float(found[count > 1][0]):g} twice")
+    return tuple(creepages.tolist())
 
 
 def checked_speeds(name: str, given: Any) -> Floats:

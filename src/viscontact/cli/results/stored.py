@@ -16,7 +16,7 @@ from viscontact.results.run_axis import run_axis
 from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.results.stated_sizes import StatedSizeError
 from viscontact.results.stored_result import Result, StoredResult, stored_result
-from viscontact.results.variables import REQUIRED, SCALARS, scalars_of
+from viscontact.results.variables import REQUIRED, scalars_in, scalars_of
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.progress_made import progress_made
@@ -71,7 +71,7 @@ def _require_history(path: Path, ds: Result) -> None:
     missing = [name for name in (axis.name, *required) if name not in ds]
     if missing:
         refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
-    stored = [name for name in (axis.name, *SCALARS) if name in ds]
+    stored = [name for name in (axis.name, *scalars_in(ds)) if name in ds]
     strange = [name for name in stored if ds[name].dims != (axis.name,)]
     if strange:
         refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over {axis.name}")

@@ -45,6 +45,7 @@ from viscontact.results.variables import (
     along_line,
     is_of_period,
     per_length,
+    scalars_in,
     shown_in,
     shown_name,
 )
@@ -68,7 +69,8 @@ def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
     common = [
         name
         for name in shown_in(Place.FIGURE)
-        if all(name in run for run in each) and not all(is_of_period(name, run) for run in each)
+        if all(scalars_in(run, [name]) for run in each)
+        and not all(is_of_period(name, run) for run in each)
     ]
     return [name for name in common if _is_worth_a_panel(name, each)]
 
@@ -239,7 +241,7 @@ def _note(runs: list[xr.Dataset], name: str) -> str:
 
 def _has_errors(run: xr.Dataset) -> bool:
     """False for a run without error bars, of which no panel needs to say so."""
-    return any(np.isfinite(errors_of(run, name)).any() for name in SCALARS if name in run)
+    return any(np.isfinite(errors_of(run, name)).any() for name in scalars_in(run))
 
 
 def limits_around(

@@ -20,7 +20,7 @@ Kluwer (1998), chapter 6.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
@@ -109,50 +109,63 @@ class MovingCompliance:
         return total
 
 
+def joined(parts: Sequence[MovingCompliance]) -> MovingCompliance:
+    """Sum of compliances."""
+    return MovingCompliance(
+        sum(each.instant for each in parts),
+        np.concatenate([each.amplitudes for each in parts]),
+        np.concatenate([each.lengths for each in parts]),
+        np.concatenate([each.periods for each in parts]),
+        sum(each.drift for each in parts),
+    )
+
+
 def moving_influence_table(
     shape: tuple[int, int],
     cell_size: tuple[float, float],
     compliance: MovingCompliance,
     axis: int,
     coefficient: Coefficient = influence_coefficient,
+    parity: int = 1,
 ) -> Floats:
     """Displacement into the body per unit pressure of a cell that moves along an axis [m/Pa].
 
     Entry k of the 2 n - 1 along the axis is k - (n - 1) cells ahead of the loaded one; across are
-    the offsets 0, 1, 2, ... `coefficient`: those of an elastic surface at offsets along and across.
+    the offsets 0, 1, 2, ... `coefficient`: those of an elastic surface at offsets along and across,
+    even (parity 1) or odd (-1) along the axis.
     """
     cell = (cell_size[axis], cell_size[1 - axis])
     count = shape[axis]
     offsets = np.arange(count, dtype=np.float64) * cell[0]
     across = np.arange(shape[1 - axis], dtype=np.float64) * cell[1]
     half = compliance.instant * coefficient(offsets[:, None], across[None, :], cell)
-    table: Floats = np.concatenate([half[:0:-1], half])
+    table: Floats = np.concatenate([parity * half[:0:-1], half])
     for period in np.unique(compliance.periods):  # none without modes
         modes = compliance.of_period(period)
-        table += _delayed(modes, period, count, across, cell, coefficient)
+        table += _delayed(modes, period, (count, parity), across, cell, coefficient)
     return np.ascontiguousarray(table if axis == 0 else table.T)
 
 
 def _delayed(
     modes: tuple[Floats, Floats],
     period: float,
-    count: int,
+    counted: tuple[int, int],
     across: Floats,
     cell: tuple[float, float],
     coefficient: Coefficient,
 ) -> Floats:
     """Delayed part Σ Ji Ei L at signed offsets along the motion, shape (2 count - 1, across)."""
-    amplitudes, lengths = modes
+    (count, parity), (amplitudes, lengths) = counted, modes
     last = (count - 1) * cell[0]
     if last >= period / 2:
         span, length = format_quantity(2 * last, "m"), format_quantity(period, "m")
         raise ValueError(f"a table over {span} is longer than the period of {length}")
     ahead = _panel_edges(count, cell[0], DECAY_LENGTHS * float(lengths.max()), period / 2)
     samples = _panel_samples(ahead, across, cell, coefficient)
-    # L is even: behind the loaded cell lie the same panels and samples in reverse.
+    # Behind the loaded cell lie the same panels and samples in reverse, or their negatives.
     behind = len(ahead) - 1 if np.isfinite(period) else int(np.searchsorted(ahead, last))
     edges = np.concatenate([-ahead[behind:0:-1], ahead])
-    samples = [values[::-1] for values in samples[:behind]][::-1] + samples
+    samples = [parity * values[::-1] for values in samples[:behind]][::-1] + samples
     table = np.zeros((2 * count - 1, len(across)))
     delayed = np.zeros((len(lengths), len(across)))
     known: dict[tuple[int, float], Floats] = {}  # most panels are alike

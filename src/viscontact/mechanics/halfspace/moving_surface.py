@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
-from viscontact.mechanics.halfspace.moving_load import MovingCompliance
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance, joined
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     SummedResponse,
@@ -74,13 +73,4 @@ class MovingSurface:
     def _weighted(self, weights: list[float]) -> MovingCompliance:
         """Sum of the compliances times weights, without drift."""
         parts = [each.scaled(w) for (_, each), w in zip(self.terms, weights, strict=True)]
-        return MovingCompliance(
-            sum(each.instant for each in parts),
-            _join([each.amplitudes for each in parts]),
-            _join([each.lengths for each in parts]),
-            _join([each.periods for each in parts]),
-        )
-
-
-def _join(parts: list[Floats]) -> Floats:
-    return np.concatenate(parts)
+        return replace(joined(parts), drift=0.0)

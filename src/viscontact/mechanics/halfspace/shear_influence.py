@@ -132,6 +132,18 @@ def _periodic_tables(
 ) -> ShearTables:
     """Coefficients of cells that repeat along x after the whole grid."""
     (nx, ny), (dx, dy) = shape, cell_size
+    y: Floats = np.arange(ny, dtype=np.float64)[None, :] * dy
+    return periodic_coefficients(nx, y, (dx, dy), datum)
+
+
+def periodic_coefficients(
+    count: int, y: Floats, cell_size: tuple[float, float], datum: float
+) -> ShearTables:
+    """Coefficients of cells that repeat along x after some number of them, at offsets y [m].
+
+    Rows are the offsets 0, 1, 2, ... along x; y is a row, and not negative.
+    """
+    nx, (dx, dy) = count, cell_size
     period = nx * dx
     if nx == 1:
         dx = dy  # pieces of any length make the strip
@@ -139,7 +151,6 @@ def _periodic_tables(
     offsets = np.arange(nx)
     # Of the nearer image; the coefficients are even along x, but Z, which is odd.
     x: Floats = np.minimum(offsets, nx - offsets).astype(np.float64)[:, None] * dx
-    y: Floats = np.arange(ny, dtype=np.float64)[None, :] * dy
     direct = periodic_influence_coefficient(x, y, (dx, dy), period, datum)
     images = max(IMAGES, math.ceil(IMAGES * dy / period))
     along_y, cross = _far_images(x, y, (dx, dy), period, images)

@@ -48,7 +48,15 @@ from viscontact.mechanics.problem.surface import (
     surface_of,
     together,
 )
-from viscontact.mechanics.state import ADHESION, FRICTION, MOTION, OF_CLOCKS, ROLLING, STAGE
+from viscontact.mechanics.state import (
+    ADHESION,
+    FRICTION,
+    MOTION,
+    OF_CLOCKS,
+    OVER_CREEPAGE,
+    ROLLING,
+    STAGE,
+)
 from viscontact.mechanics.time_integration.adaptive_steps import (
     MIN_STEP_FRACTION,
     AdaptiveSteps,
@@ -246,8 +254,11 @@ class Problem:
     def parts(self) -> frozenset[str]:
         """Parts of the scalars of its states that only some problems have."""
         moving = () if self.motion.stands else (MOTION,)
-        gripping = () if self.friction is None else (FRICTION,)
-        rolling = () if self.friction is None or self.motion.stands else (ROLLING,)
+        is_steady = not (self.motion.stands or any(self.motion.moves))
+        grips = (OVER_CREEPAGE,) if is_steady else (FRICTION,)
+        gripping = () if self.friction is None else grips
+        rolls = not (self.friction is None or self.motion.stands or is_steady)
+        rolling = (ROLLING,) if rolls else ()
         adhering = () if self.adhesion is None else (ADHESION,)
         staged = () if self.load.stage_stiffness is None else (STAGE,)
         return frozenset(

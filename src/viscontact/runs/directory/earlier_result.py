@@ -86,8 +86,8 @@ def _fault(file: StoredFile, layout: Layout, extent: Extent) -> str:
             return f"its {name} is another kind of variable"
     if layout.axis is None and f"field_{layout.over}" in file.dimensions:
         return "it has fields"
-    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
-        if not np.array_equal(file.variables[name][:], centres):
+    for name, values in layout.coordinates.items():
+        if not np.array_equal(file.variables[name][:], values):
             return f"its {name} is another grid's"
     there = layout.extent_of(file)
     rows = "instants" if layout.over == "time" else "speeds"

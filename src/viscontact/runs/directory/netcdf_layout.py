@@ -21,15 +21,19 @@ from viscontact.results.stored_result import StoredFile, keep_little
 from viscontact.results.variables import (
     AXES,
     COORDINATES,
+    CREEPAGE,
     ERRORS,
     EVERY_FIELD,
     FRICTION_FIELDS,
     LINES,
     SCALARS,
     Variable,
+    curve_of,
+    curves_of,
     error_name,
     field_axis_attributes,
     fields_of,
+    fields_over_creepage,
     parts_of,
     parts_on,
     scalar_attributes,
@@ -63,6 +67,18 @@ class Layout:
     kind: str = "f8"  # NumPy's name of the type of the fields
     parts: frozenset[str] = frozenset()  # of scalars that only some results have
     over: str = "time"  # dimension of the scalars: "time", or "speed" in steady motion
+    creepages: tuple[float, ...] = ()  # of a body that rolls in steady motion with traction [-]
+
+    @property
+    def coordinates(self) -> dict[str, Any]:
+        """Values of the dimensions that the run does not add to."""
+        creeping = {"creepage": np.array(self.creepages)} if self.creepages else {}
+        return {"x": self.grid.x, "y": self.grid.y, **creeping}
+
+    @property
+    def curves(self) -> dict[str, Variable]:
+        """Values of each row over the creepage."""
+        return curves_of(self.parts)
 
     @property
     def scalars(self) -> dict[str, Variable]:
@@ -78,19 +94,29 @@ class Layout:
             names = map(error_name, scalars_with_error(self.parts, self.over))
             columns |= {name: (ERRORS[name], (self.over,)) for name in names}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
+        if self.creepages:
+            found["creepage"] = CREEPAGE, ("creepage",)
+        for name, variable in self.curves.items():
+            found[name] = variable, (self.over, "creepage")
+            if self.errors and variable.has_error:
+                found[error_name(name)] = ERRORS[error_name(name)], (self.over, "creepage")
         if self.axis is None:
             return found
         if self.axis != self.over:
             about = field_axis_attributes(self.over)
             found[self.axis] = (Variable(about["units"], about["long_name"]), (self.axis,))
         fields = fields_of(self.parts)
-        axes = dict.fromkeys(fields, ("x", "y")) | dict.fromkeys(LINES, ("x",))
+        axes: dict[str, tuple[str, ...]] = dict.fromkeys(fields, ("x", "y")) | dict.fromkeys(
+            LINES, ("x",)
+        )
+        more = fields_over_creepage(self.parts)
+        axes |= dict.fromkeys(more, ("creepage", "x", "y"))
         return found | {
             name: (
                 replace(variable, kind=self.kind) if variable.kind == "f8" else variable,
                 (self.axis, *axes[name]),
             )
-            for name, variable in (fields | LINES).items()
+            for name, variable in (fields | LINES | more).items()
         }
 
     def extent_of(self, file: netCDF4.Dataset | StoredFile) -> Extent:
@@ -111,6 +137,7 @@ class Contents:
     tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
     parts: frozenset[str] = frozenset()  # of scalars that only some results have
     over: str = "time"  # "time", or "speed" in steady motion
+    creepages: tuple[float, ...] = ()  # of a body that rolls in steady motion with traction [-]
 
     @property
     def kept(self) -> frozenset[float]:
@@ -122,7 +149,7 @@ class Contents:
         axis = self.fields.axis(self.over) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
         parts = parts_on(grid, self.parts)
-        return Layout(grid, axis, self.errors, kind, parts, self.over)
+        return Layout(grid, axis, self.errors, kind, parts, self.over, self.creepages)
 
 
 def created(
@@ -134,19 +161,19 @@ def created(
     file.set_auto_maskandscale(False)
     file.setncatts(attributes)
     file.createDimension(layout.over, None)
-    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
-        file.createDimension(name, len(centres))
+    for name, values in layout.coordinates.items():
+        file.createDimension(name, len(values))
     if layout.axis not in (None, layout.over):
         file.createDimension(layout.axis, None)
     for name, (variable, dimensions) in layout.columns.items():
         _create(file, name, variable, dimensions)
-    for name in layout.scalars:
+    for name in (*layout.scalars, *layout.curves):
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
     keep_little(file)
     digests = RunningDigests(file)
-    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
-        file[name][:] = centres
-        digests.add(name, centres)
+    for name, values in layout.coordinates.items():
+        file[name][:] = values
+        digests.add(name, values)
     return file, digests
 
 
@@ -186,22 +213,40 @@ def write_scalars(
         values = np.array(list(own), dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
         digests.add(name, values)
+    for name in curves_of(parts_of(states[0])):
+        curves = np.stack([curve_of(state, name) for state in states])
+        _write_rows(file, digests, name, row, curves)
     unknown = np.full(len(states), np.nan)  # which fills the rows until the errors are known
     for name in ERRORS:
-        if name in file.variables:
+        if name not in file.variables:
+            continue
+        if file.variables[name].ndim == 1:
             digests.add(name, unknown)
+        else:
+            curves = np.full((len(states), file.variables[name].shape[1]), np.nan)
+            _write_rows(file, digests, name, row, curves)
 
 
 def read_scalars(file: netCDF4.Dataset) -> dict[str, Floats]:
     """Read all scalars, and their instants or speeds, by name."""
-    names = [name for name in (*AXES, *SCALARS) if name in file.variables]
+    names = [
+        name
+        for name in (*AXES, *SCALARS)
+        if name in file.variables and "creepage" not in file.variables[name].dimensions
+    ]
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 
 def described_fields(file: netCDF4.Dataset | StoredFile) -> dict[str, Any] | None:
     """Describe instants [s] or speeds [m/s], and grid [m], of the stored fields; None without."""
     # Results with equal descriptions store fields at the same places.
-    if not (names := [name for name in EVERY_FIELD | LINES if name in file.variables]):
+    # Those over the creepage are in the results of single runs only.
+    names = [
+        name
+        for name in EVERY_FIELD | LINES
+        if name in file.variables and "creepage" not in file.variables[name].dimensions
+    ]
+    if not names:
         return None
     axis = str(file.variables[names[0]].dimensions[0])
     centres = {name: file.variables[name][:] for name in ("x", "y")}
@@ -216,6 +261,9 @@ def write_errors(
     """Write the errors of the scalars, for all rows, by the names of the scalars."""
     for scalar, errors in values.items():
         name = error_name(scalar)
+        if errors.ndim > 1:
+            _write_rows(file, digests, name, 0, errors)
+            continue
         file.variables[name][: len(errors)] = errors
         digests.replace(name, file.variables[name][:])
 
@@ -230,6 +278,9 @@ def write_fields(
     for name in LINES:
         line = line_on_wider(getattr(state, name), state.grid, layout.grid)
         _write_rows(file, digests, name, row, line[np.newaxis])
+    for name in fields_over_creepage(layout.parts):
+        values = getattr(state.rolling_traction, name)
+        _write_rows(file, digests, name, row, values[np.newaxis])
     if layout.axis not in (None, layout.over):
         file.variables[layout.axis][row] = getattr(state, layout.over)
 
@@ -254,7 +305,7 @@ def copy_rows(
     """Copy the first rows of a result of some layout to one on a grid that is at least as large."""
     layout, grid = grids
     for name, (_, dimensions) in layout.columns.items():
-        if dimensions[0] in ("x", "y"):
+        if dimensions[0] in layout.coordinates:
             continue
         last = extent.field_rows if dimensions[0] == layout.axis else extent.rows
         if len(dimensions) == 1:
@@ -262,9 +313,9 @@ def copy_rows(
             target.variables[name][:last] = values
             digests.add(name, values)
             continue
-        for rows in _blocks(last, grid.shape[: len(dimensions) - 1]):
+        for rows in _blocks(last, source.variables[name].shape[1:]):
             values = source.variables[name][rows]
-            if name in EVERY_FIELD:
+            if name in EVERY_FIELD and dimensions[-1] == "y":
                 values = on_wider(name, values, layout.grid, grid)
             elif name in LINES:
                 values = line_on_wider(values, layout.grid, grid)

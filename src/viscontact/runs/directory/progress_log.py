@@ -193,7 +193,8 @@ def _entries(state: ContactState) -> dict[str, Any]:
 
 def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | None]:
     """Errors of the scalars at an instant."""
-    values = {error_name(name): float(each[row]) for name, each in errors.items()}
+    # A line holds no values over the creepage.
+    values = {error_name(name): float(each[row]) for name, each in errors.items() if each.ndim == 1}
     return {
         name: "inf" if math.isinf(value) else None if math.isnan(value) else value
         for name, value in values.items()

@@ -59,6 +59,7 @@ class Recorded:
             run.contact.tolerance if fits_single else 0.0,
             parts=run.parts,
             over=run.axis.name,
+            creepages=run.creepages,
         )
 
     @property

@@ -84,6 +84,11 @@ def _check_rolling(problem: Problem) -> None:
             "tangential.torque: torque and rotation of a body that moves are not supported; leave "
             "them out"
         )
+    refuse_coupled(problem)
+
+
+def refuse_coupled(problem: Problem) -> None:
+    """Refuse bodies in motion whose pressure and tractions are coupled."""
     if problem.is_coupled:
         raise ValueError(
             "friction.coupling: pressure and tractions of these bodies are coupled, which is not "

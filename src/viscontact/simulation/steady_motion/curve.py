@@ -17,6 +17,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
+from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.half_space_theory import (
     SINGULAR_KINDS,
     corner_warnings,
@@ -50,6 +51,10 @@ from viscontact.simulation.steady_motion.error_bars import (
 from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.state import force_across, resistance_of, rim_of, state_of
+from viscontact.simulation.steady_motion.traction_bars import (
+    traction_bars,
+    unknown_traction_bars,
+)
 from viscontact.simulation.transient.grid_enlargement import overrun
 from viscontact.units.formatting import format_quantity
 
@@ -71,7 +76,7 @@ class SteadyCurve:
         self._run, self._errors = run, errors
         self.done = 0
         self._before: Neighbour | None = None
-        self.bars: list[Mapping[str, float]] = []  # at each speed; empty without errors
+        self.bars: list[Mapping[str, float | Floats]] = []  # at each speed; empty without errors
         # Convolutions of the solver at each speed, in those of its grid.
         self.work: list[float] = []
         self.warnings = WarningCollector()
@@ -127,6 +132,7 @@ class SteadyCurve:
         _refuse(contact, tolerance, chosen=not isinstance(problem.contact.grid, Grid))
         fine = self._measure(contact)
         found = _warnings(problem, contact, fine.rim)
+        fine = self._with_traction(fine, contact)
         if self._errors:
             passed = grid.cell_size[problem.axis] / speed
             singular = entry_is_singular(problem.contact.compliance, passed)
@@ -138,12 +144,21 @@ class SteadyCurve:
 
     def _bars(
         self, fine: Measured, coarse: SteadyContact | None, *, singular: bool
-    ) -> Mapping[str, float]:
+    ) -> Mapping[str, float | Floats]:
         """Error bars, from a contact on a coarser grid if there is one."""
-        problem = self._run.problem
+        problem, traction = self._run.problem, fine.state.rolling_traction
         if coarse is None or not (coarse.solution.converged and coarse.in_contact.any()):
-            return unknown_bars(problem)
-        return error_bars(problem, fine, self._measure(coarse), singular=singular)
+            return {**unknown_bars(problem), **unknown_traction_bars(traction)}
+        other = self._measure(coarse)
+        bars: dict[str, float | Floats] = {**error_bars(problem, fine, other, singular=singular)}
+        if traction is None:
+            return bars
+        try:
+            rough = self._with_traction(other, coarse).state.rolling_traction
+        except ConvergenceError:
+            return bars | unknown_traction_bars(traction)
+        assert rough is not None  # as of the finer contact
+        return bars | traction_bars(problem, fine, traction, rough)
 
     def _measure(self, contact: SteadyContact) -> Measured:
         problem = self._run.problem
@@ -153,6 +168,13 @@ class SteadyCurve:
         datum = problem.contact.has_datum(contact.grid) and not sinks
         state = state_of(problem, contact, rim, against, datum=datum)
         return Measured(state, rim, against)
+
+    def _with_traction(self, found: Measured, contact: SteadyContact) -> Measured:
+        """A contact with its tractions, of a body that rolls with creepages."""
+        solver = self._run.tractions
+        if solver is None:
+            return found
+        return replace(found, state=replace(found.state, rolling_traction=solver.solve(contact)))
 
 
 def _nearby_contact(before: Neighbour | None, speed: float, grid: Grid) -> Neighbour | None:
@@ -201,6 +223,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     found |= origin_warnings(problem.contact.materials)
     found |= temperature_warnings(problem.contact.materials) | shift_warnings(problem.contact)
     found |= datum_warnings(run.grids[0], ("approach",), supported=surface.is_supported)
+    found |= coupling_warnings(problem.contact)
     found |= layer_warnings(problem.contact.thinnest_layer, run.grids[0].cell_size)
     if run.tolerance_reached is not None:
         requested = problem.contact.automatic_grid

@@ -7,6 +7,7 @@ relaxed one. Of layers each term of the surface has a law.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,12 +15,15 @@ import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads.clock import TIME
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.halfspace.moving_load import MovingCompliance
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance, joined
+from viscontact.mechanics.halfspace.moving_shear import MovingShear
 from viscontact.mechanics.halfspace.moving_surface import MovingSurface
-from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
+from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
+from viscontact.mechanics.problem.shear_terms import shear_terms
 from viscontact.mechanics.problem.surface import ROUNDING, SurfaceTerm, terms_of
 from viscontact.mechanics.time_integration.prony_approximation import as_exponentials
 from viscontact.simulation.steady_motion.problem import SteadyProblem
@@ -111,32 +115,74 @@ class MovingLaws:
 
 def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaws:
     """Laws of the bodies, for lengths of the contact at the fastest and slowest speed [m]."""
-    speeds = problem.speeds
-    first = SHORTEST * extents[0] / float(speeds.max())
-    grid = problem.contact.grid
-    if isinstance(grid, Grid) and not grid.has_datum:
-        last = LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
-    else:
-        last = LONGEST * extents[1] / float(speeds.min())
+    first, last = _times(problem, extents)
     material, *mates = problem.contact.bodies
     found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
     for term in (term for mate in mates for term in _terms(mate)):
-        compliance = term.compliance
-        if problem.motion.rolling and not compliance.is_elastic:
-            _relaxed(compliance, last, "rolls")
-            curvature = problem.contact.indenter.curvatures[problem.axis]
-            series, error, _ = _series(compliance, first, last)
-            new = _law(term, series, error, 0.0, 2 * np.pi / curvature)
-        else:
-            nothing = np.empty(0)
-            relaxed = SeriesCompliance(_relaxed(compliance, last, "slides"), nothing, nothing)
-            new = _law(term, relaxed, 0.0, 0.0)
+        new = _law_of_mate(problem, term, first, last)
         alike = [index for index, law in enumerate(found) if law.response == new.response]
         if alike:
             found[alike[0]] = found[alike[0]].with_another(new)
         else:
             found.append(new)
     return MovingLaws(tuple(found))
+
+
+def _times(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[float, float]:
+    """Shortest and longest times of series, for lengths of the contact [s]."""
+    speeds = problem.speeds
+    first = SHORTEST * extents[0] / float(speeds.max())
+    grid = problem.contact.grid
+    if isinstance(grid, Grid) and not grid.has_datum:
+        return first, LONGEST_OF_LINES * max(grid.size) / float(speeds.min())
+    return first, LONGEST * extents[1] / float(speeds.min())
+
+
+def _law_of_mate(problem: SteadyProblem, term: SurfaceTerm, first: float, last: float) -> MovingLaw:
+    """Law of a term of the indenter, which rolls or slides."""
+    compliance = term.compliance
+    if problem.motion.rolling and not compliance.is_elastic:
+        _relaxed(compliance, last, "rolls")
+        curvature = problem.contact.indenter.curvatures[problem.axis]
+        series, error, _ = _series(compliance, first, last)
+        return _law(term, series, error, 0.0, 2 * np.pi / curvature)
+    nothing = np.empty(0)
+    relaxed = SeriesCompliance(_relaxed(compliance, last, "slides"), nothing, nothing)
+    return _law(term, relaxed, 0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class ShearLaw:
+    """Law of a term of the response to shear, with the weights of its parts [-]."""
+
+    law: MovingLaw
+    direct: float  # of the part of 1/r
+    poisson: float  # of the part by κ
+
+
+def shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[ShearLaw, ...]:
+    """Laws of the bodies under shear, as `moving_laws`; half-spaces only."""
+    first, last = _times(problem, extents)
+    found = []
+    for place, body in enumerate(problem.contact.bodies):
+        for term in shear_terms([body], [TIME]):
+            of_pressure = SurfaceTerm(term.compliance, HALF_SPACE)
+            law = (
+                _law(of_pressure, *_series(of_pressure.compliance, first, last))
+                if place == 0
+                else _law_of_mate(problem, of_pressure, first, last)
+            )
+            found.append(ShearLaw(law, term.direct, term.poisson))
+    return tuple(found)
+
+
+def moving_shear(laws: Sequence[ShearLaw], speed: float, extent: float) -> MovingShear:
+    """Response to shear at a speed [m/s], for contacts that are small against an extent [m]."""
+    moving = [law.law.at(speed, extent) for law in laws]
+    return MovingShear(
+        joined([each.scaled(law.direct) for law, each in zip(laws, moving, strict=True)]),
+        joined([each.scaled(law.poisson) for law, each in zip(laws, moving, strict=True)]),
+    )
 
 
 def _terms(body: Material | Layered) -> list[SurfaceTerm]:

@@ -16,7 +16,12 @@ from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.meshing.line_grid import line_axis, line_estimate, line_grid
 from viscontact.simulation.steady_motion.contact import SteadySolver, gap_on
-from viscontact.simulation.steady_motion.moving_law import MovingLaws, moving_laws
+from viscontact.simulation.steady_motion.moving_law import (
+    MovingLaws,
+    ShearLaw,
+    moving_laws,
+    shear_laws,
+)
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.region import (
     SEARCH_CELLS,
@@ -26,6 +31,7 @@ from viscontact.simulation.steady_motion.region import (
     find_region,
     lattice_for,
 )
+from viscontact.simulation.steady_motion.traction import TractionSolver
 from viscontact.units.formatting import format_quantity
 
 #: Cells across the smallest contact, times the square root of the grid's tolerance; at least some.
@@ -56,6 +62,7 @@ class SteadySetup:
     grids: tuple[Grid, ...]
     threads: int
     transforms: str  # library of the transforms
+    shear: tuple[ShearLaw, ...] = ()  # laws under shear, of a body that rolls with traction
     #: Convolutions of the search for regions, in those of the grids.
     work: float = 0.0
     #: Tolerance of a chosen grid, if its cells are too large for the requested one.
@@ -65,6 +72,13 @@ class SteadySetup:
     def problem(self) -> SteadyProblem:
         """The problem."""
         return self.solver.problem
+
+    @property
+    def tractions(self) -> TractionSolver | None:
+        """Solver of the tractions; None of a body without creepages."""
+        if not self.shear:
+            return None
+        return TractionSolver(self.problem, self.shear, self.solver.transforms)
 
     @property
     def grid(self) -> Grid:
@@ -92,17 +106,22 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     _refuse_apart(problem)
     if isinstance(given, Grid):
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
-        laws = moving_laws(problem, extents)
+        laws, shear = moving_laws(problem, extents), _shear_laws(problem, extents)
         _refuse_flow(laws, given)
         _refuse_long_grid(laws, given, axis)
         solver = SteadySolver(problem, laws, transforms)
-        return SteadySetup(solver, (given,) * len(problem.speeds), threads, library)
+        return SteadySetup(solver, (given,) * len(problem.speeds), threads, library, shear)
     speeds = problem.speeds
     fast, slow = (estimate_at(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
-    laws = moving_laws(problem, (fast.extents[axis], slow.extents[axis]))
-    solver = SteadySolver(problem, laws, transforms)
-    setup = SteadySetup(solver, (), threads, library)
+    extents = fast.extents[axis], slow.extents[axis]
+    solver = SteadySolver(problem, moving_laws(problem, extents), transforms)
+    setup = SteadySetup(solver, (), threads, library, _shear_laws(problem, extents))
     return _on_chosen_grids(setup, fast)
+
+
+def _shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[ShearLaw, ...]:
+    """Laws under shear, of a body that rolls with traction."""
+    return shear_laws(problem, extents) if problem.motion.creepages else ()
 
 
 def _with_line_grid(problem: SteadyProblem) -> SteadyProblem:

@@ -13,8 +13,10 @@ from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
+from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import creeps
+from viscontact.simulation.checks.friction import refuse_coupled
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +85,37 @@ def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
             "roll; give rolling=False"
         )
     _check_bodies(contact, axis, rolling)
+    _check_friction(contact, motion, periodic[axis])
     contact.kept.among(problem.speeds, "speed")
     return problem
+
+
+def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> None:
+    """Refuse tractions that cannot be computed, and friction or creepages without the other."""
+    if contact.friction is None and not motion.creepages:
+        return
+    if contact.friction is None:
+        raise ValueError(
+            "friction: a creepage needs friction, got none; give a coefficient, as in friction=0.3 "
+            "or, in a case, 'friction: {coefficient: 0.3}', or leave the creepage out"
+        )
+    if not motion.creepages:
+        raise ValueError(
+            "creepage: under friction a body in steady motion needs its surface speed over its "
+            "travel, less 1, got none; give one or a list, as in creepage=[0.001, 0.01] or, in a "
+            "case, 'creepage: [0.1 %, 1 %]', or leave friction out"
+        )
+    if any(isinstance(body, Layered) for body in contact.bodies):
+        raise ValueError(
+            "friction: bodies of layers are not supported under friction in steady motion; use a "
+            "half-space"
+        )
+    if periodic:
+        raise ValueError(
+            "creepage: a body on a grid that is periodic along its motion has no end, and cannot "
+            "roll; leave friction and creepage out"
+        )
+    refuse_coupled(contact)
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

@@ -12,17 +12,23 @@ import numpy as np
 from viscontact import __version__
 from viscontact.backend.arrays import Field, Floats
 from viscontact.bodies.grid import Grid
+from viscontact.mechanics.rolling_traction import RollingTraction
 from viscontact.mechanics.state import MOTION, ContactState
 from viscontact.results.descriptions import describe
-from viscontact.results.variables import fields_of, scalars_with_error
+from viscontact.results.variables import (
+    FRICTION_FIELDS,
+    curves_with_error,
+    fields_of,
+    scalars_with_error,
+)
 from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
 
-def errors_by_name(bars: Sequence[Mapping[str, float]]) -> dict[str, Floats]:
+def errors_by_name(bars: Sequence[Mapping[str, float | Floats]]) -> dict[str, Floats]:
     """Error bars of each scalar over the speeds, in its unit."""
-    names = scalars_with_error((MOTION,), "speed")
-    return {name: np.array([each[name] for each in bars]) for name in names}
+    names = [*scalars_with_error((MOTION,), "speed"), *curves_with_error()]
+    return {name: np.array([each[name] for each in bars]) for name in names if name in bars[0]}
 
 
 def on_grid(state: ContactState, grid: Grid) -> ContactState:
@@ -34,7 +40,18 @@ def on_grid(state: ContactState, grid: Grid) -> ContactState:
         for name, variable in fields_of().items()
     }
     line_load = _embed(state.line_load, state.grid, grid, 0.0)
-    return replace(state, grid=grid, line_load=line_load, **fields)
+    traction = state.rolling_traction and _traction_on(state.rolling_traction, state.grid, grid)
+    return replace(state, grid=grid, line_load=line_load, rolling_traction=traction, **fields)
+
+
+def _traction_on(traction: RollingTraction, grid: Grid, wider: Grid) -> RollingTraction:
+    fields = {
+        name: np.stack(
+            [_embed(each, grid, wider, variable.beyond) for each in getattr(traction, name)]
+        )
+        for name, variable in FRICTION_FIELDS.items()
+    }
+    return replace(traction, **fields)
 
 
 def _embed(field: Field, grid: Grid, wider: Grid, beyond: float) -> Field:
@@ -75,6 +92,9 @@ def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[s
     contact = problem.contact
     temperature = contact.temperature
     heat = {} if temperature is None else {"temperature": describe(temperature)}
+    creepages, friction = problem.motion.creepages, contact.friction
+    creeping = {"creepage": describe(np.array(creepages))} if creepages else {}
+    rubbing = {} if friction is None else {"friction": describe(friction)}
     return {
         "indenter": describe(contact.indenter),
         "material": describe(contact.material),
@@ -85,8 +105,10 @@ def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[s
             "speed": describe(problem.speeds),
             "along": problem.motion.along,
             "rolling": problem.motion.rolling,
+            **creeping,
         },
         **heat,
+        **rubbing,
         "grid": describe(grid),
         "automatic": describe(contact.automatic_grid),
         "tolerance": contact.tolerance,

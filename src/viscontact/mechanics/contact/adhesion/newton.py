@@ -20,13 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.mechanics.contact.adhesion.krylov import gmres, norm
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveResidual,
     residual_of,
 )
 from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.krylov import gmres, norm
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import Guess
 
