@@ -90,10 +90,10 @@ def test_limits_of_friction_go_with_friction(tmp_path):
         read(tmp_path, "allowable.friction_heat=1 J", text=text)
 
 
-def test_friction_in_steady_motion_is_refused(tmp_path):
+def test_tangential_load_in_steady_motion_is_refused(tmp_path):
     text = CASE.replace("time: {end: 1 s, steps: 4}\n", "")
-    steady = text + "motion: {kind: steady, along: y, speed: 1 mm/s}\n"
-    with pytest.raises(CaseError, match="it is not supported in steady motion"):
+    steady = text + "motion: {kind: steady, along: y, speed: 1 mm/s, creepage: 1 %}\n"
+    with pytest.raises(CaseError, match="tangential: a body in steady motion rolls under friction"):
         read(tmp_path, text=steady)
 
 

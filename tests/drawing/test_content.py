@@ -163,7 +163,7 @@ def test_depth_of_the_largest_stress_lies_between_the_depths_of_a_section() -> N
 
 
 def test_animations_are_not_among_the_figures() -> None:
-    assert names_of("speed") == ["friction", "motion-profile"]
+    assert names_of("speed") == ["friction", "traction-creepage", "motion-profile"]
     assert names_of("sweep") == ["response"]
 
 

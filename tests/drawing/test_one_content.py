@@ -20,6 +20,7 @@ from viscontact.drawing.plotly.friction import friction
 from viscontact.drawing.plotly.indentation_fits import fit_over_time, force_over_approach
 from viscontact.drawing.plotly.panel_over_run import histories, panel_over_run
 from viscontact.drawing.plotly.responses import responses
+from viscontact.drawing.plotly.traction_creepage import traction_creepage
 from viscontact.identification import IndentationRecord, fit_indentation
 from viscontact.indenters import Sphere
 from viscontact.results.variables import SCALARS
@@ -82,6 +83,29 @@ def test_histories_are_the_same_in_matplotlib_and_plotly(name: str) -> None:
         frames = [frame.name for frame in page.frames]
         assert (axes.get_xscale() == "symlog") == (page.layout.uirevision == "log")
         assert frames == (["linear", "log"] if axes.get_xscale() == "symlog" else frames)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_traction_over_creepage_is_the_same_in_matplotlib_and_plotly() -> None:
+    run = vc.steady(
+        *(vc.Paraboloid(0.01, 0.01), vc.Material(vc.Elastic(1e6), 0.5)),
+        *(vc.step(1.0, tilt_x=0.0, tilt_y=0.0), [0.1, 0.01]),
+        grid=vc.Grid((24, 24), (3.4e-3, 3.4e-3)),
+        friction=0.5,
+        creepage=[0.05, 0.01, -0.02],
+    )
+    (axes,), (page,) = plot.traction_creepage(run).axes, traction_creepage(run)
+    force = -run.tangential_force_y.sel(speed=0.01).values / (0.5 * 1.0)
+    drawn = axes.lines[0].get_xydata()
+    assert drawn[:, 0] == close_to([-2.0, 1.0, 5.0])  # %
+    assert drawn[:, 1] == close_to(force[[2, 1, 0]])
+    first = page.data[0]
+    assert first.name == axes.get_legend().get_texts()[0].get_text() == "10 mm/s"
+    np.testing.assert_allclose(first.x, drawn[:, 0], rtol=1e-6)
+    np.testing.assert_allclose(first.y, drawn[:, 1], rtol=1e-6)
+    bars = run.tangential_force_y_error.sel(speed=0.01).values[[2, 1, 0]] / 0.5
+    np.testing.assert_allclose(first.error_y.array, bars, rtol=1e-6)
+    assert "creepage -2 %" in first.text[0]
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")

@@ -41,7 +41,13 @@ UNITS = {
     **dict.fromkeys(("force", "forces"), "N"),
     **dict.fromkeys(("compliance", "amplitudes"), "1/Pa"),
     **dict.fromkeys(("modulus", "moduli", "storage", "loss", "pressure"), "Pa"),
-    **{"speed": "m/s", "speeds": "m/s", "temperature": "K", "angular_frequency": "rad/s"},
+    **{
+        "speed": "m/s",
+        "speeds": "m/s",
+        "creepage": "1",
+        "temperature": "K",
+        "angular_frequency": "rad/s",
+    },
 }
 
 BALL, RUBBER = vc.Sphere(0.01), vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5)
@@ -173,6 +179,11 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
         {
             **{**RUN, "grid": vc.Grid((24, 24), (2.4e-3, 2.4e-3)), "errors": False},
             **{"load": vc.step(0.1, tilt_y=0.0), "speed": [1e-3], "fields": [1e-3]},
+        },
+        {
+            **{**RUN, "grid": vc.Grid((24, 24), (2.4e-3, 2.4e-3)), "errors": False},
+            **{"load": vc.step(0.1, tilt_y=0.0), "speed": [1e-3], "fields": [1e-3]},
+            **{"friction": vc.Friction(0.3, coupling=False), "creepage": [1e-3, 2e-3]},
         },
     ),
     "rolling_temperature": (

@@ -156,6 +156,14 @@ TABLE = (
         takes=("theory",),
         reported=Reported("friction", "Friction coefficient over speed", "friction"),
     ),
+    FigureEntry(
+        "traction-creepage",
+        of="speed",
+        takes=(),
+        reported=Reported(
+            "friction", "Traction over creepage", "traction_creepage", of_use="has_creepages"
+        ),
+    ),
     _fields(
         "motion-profile",
         of="speed",

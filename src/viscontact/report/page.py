@@ -15,6 +15,7 @@ from viscontact.drawing.figures import Chapter as FigureChapter
 from viscontact.drawing.plotly.run_figures import run_figures
 from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
+from viscontact.report.creepage_table import creepage_table
 from viscontact.report.html_page import html_page
 from viscontact.report.leak_chapter import leak_chapter
 from viscontact.report.slip_chapter import slip_chapter
@@ -131,7 +132,12 @@ def run_chapters(ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]
         ("slip", "Friction", slip_chapter(ds)),
         (
             *("histories", run_axis(ds).heading),
-            chain(shown["friction"], input_chapters.speed_table(ds), *over_run),
+            chain(
+                shown["friction"],
+                input_chapters.speed_table(ds),
+                creepage_table(ds),
+                *over_run,
+            ),
         ),
         ("inputs", "Inputs", input_chapters.inputs_chapter(ds)),
         ("geometry", "Geometry", input_chapters.geometry_chapter(ds)),

@@ -172,7 +172,7 @@ def steady(  # noqa: PLR0913
 
     >>> ds = vc.steady(ball, rubber, load, 0.1, friction=0.5, creepage=[0.005, 0.05])
     >>> ds.tangential_force_y.values.round(2).tolist()
-    [[]]
+    [[-0.07, -0.45]]
     """
     report = reported(progress, ProgressBar("speed"))
     motion = steady_motion(speed, along, rolling, creepage)

@@ -29,7 +29,7 @@ DRAWN = [name for name in NAMES if name not in LIKE_OTHERS[tried(0, 6) :]]
 _NOT_ALWAYS = (
     *("pressure-radial", "exact", "indenter", "area-pressure", "force-curve"),
     *("leak-channel", "leak-rate", "fluid-pressure"),
-    *("fretting-loop", "slip-history", "stick-map", "traction-profile"),
+    *("fretting-loop", "slip-history", "stick-map", "traction-profile", "traction-creepage"),
 )
 
 

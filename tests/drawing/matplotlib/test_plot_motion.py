@@ -5,7 +5,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.plot import friction, motion_profile
+from viscontact.plot import friction, motion_profile, traction_creepage
 
 BALL, LOAD = vc.Paraboloid(10.0, 10.0), vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
 RUBBER = vc.Material(vc.CreepSeries(1 / 1000, [9 / 1000], [10.0]), poisson_ratio=0.5)
@@ -66,3 +66,26 @@ def test_other_results_are_refused(curve):
         motion_profile(curve.drop_vars("pressure"))
     with pytest.raises(ValueError, match="positive"):
         friction(curve.assign(friction_coefficient=0 * curve.friction_coefficient))
+
+
+@pytest.mark.filterwarnings("ignore:the grid is periodic:viscontact.AccuracyWarning")
+def test_traction_of_a_long_roller_lies_between_the_limits_of_carter():
+    ds = vc.steady(
+        *(vc.Paraboloid(np.inf, 10.0), RUBBER, vc.step(1.0, tilt_y=0.0), [1e-4, 1e4]),
+        grid=vc.Grid((1, 160), (1.0, 2.2), periodic=(True, False)),
+        friction=0.3,
+        creepage=np.linspace(0.001, 0.01, 5),
+        errors=False,
+    )
+    axes = traction_creepage(ds).axes[0]
+    slow, fast, relaxed, instant = (line.get_xydata() for line in axes.lines)
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert texts == ["100 µm/s", "10 km/s", "Carter, slow motion", "Carter, fast motion"]
+    assert slow[:, 0] == close_to(100 * ds.creepage.values)
+    for found, exact in ((slow, relaxed), (fast, instant)):
+        np.testing.assert_allclose(found[:, 1], np.interp(found[:, 0], *exact.T), atol=0.01)
+
+
+def test_traction_over_creepage_needs_creepages(curve):
+    with pytest.raises(ValueError, match=r"^traction-creepage: needs a result of steady motion"):
+        traction_creepage(curve)

@@ -40,7 +40,7 @@ def _close_all() -> None:
 
 def test_every_figure_has_its_method() -> None:
     methods = {name for name in vars(ResultPlots) if not name.startswith("_")} - {"result"}
-    others = {"animation", "friction", "motion_profile"}  # the last two of steady motion
+    others = {"animation", "friction", "motion_profile", "traction_creepage"}  # of steady motion
     assert methods - others == {name.replace("-", "_") for name in FIGURES}
 
 

@@ -107,8 +107,10 @@ def limit_speeds(results: xr.Dataset) -> Floats:
 
 def friction_limits(results: xr.Dataset, speeds: Floats) -> list[tuple[str, Floats]]:
     """Limits that hold for the body and its material: names, and values at some speeds."""
-    body, series = _round_body(results), _series(results)
+    body, series = round_body(results, "friction"), contact_series(results, "friction")
     if body is None or series is None:
+        return []
+    if not series.amplitudes.size + series.fluidity:
         return []
     curvature = body.curvatures["xy".index(str(results.attrs["along"]))]
     found = []
@@ -134,24 +136,24 @@ def friction_limits(results: xr.Dataset, speeds: Floats) -> list[tuple[str, Floa
     return found
 
 
-def _round_body(results: xr.Dataset) -> Indenter | None:
+def round_body(results: xr.Dataset, figure: str) -> Indenter | None:
     """Indenter of a result, if its curvature is constant."""
     kind = (case_of(results).get("indenter") or {}).get("type")
     if kind not in {round_body.__name__ for round_body in _ROUND}:
         return None
-    body = recorded_object(results, "indenter", "friction")
+    body = recorded_object(results, "indenter", figure)
     assert isinstance(body, Indenter)
     return body
 
 
-def _series(results: xr.Dataset) -> SeriesCompliance | None:
+def contact_series(results: xr.Dataset, figure: str) -> SeriesCompliance | None:
     """Contact compliance of both bodies if only the half-space creeps, and as a series."""
-    material = recorded_object(results, "material", "friction")
-    mate = recorded_object(results, "indenter_material", "friction")
+    material = recorded_object(results, "material", figure)
+    mate = recorded_object(results, "indenter_material", figure)
     if not isinstance(material, Material) or not isinstance(mate, Material | None):
         return None
     found = material.contact_compliance()
-    if not isinstance(found, SeriesCompliance) or not found.amplitudes.size + found.fluidity:
+    if not isinstance(found, SeriesCompliance):
         return None
     if mate is None:
         return found

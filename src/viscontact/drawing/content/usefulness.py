@@ -10,6 +10,7 @@ from viscontact.drawing.content.force_curve import adheres
 from viscontact.drawing.content.loop import loops_of
 from viscontact.drawing.figures import FigureEntry
 from viscontact.results.fretting import acting_directions, is_gripping
+from viscontact.results.rolling import has_creepages
 from viscontact.results.shown_scalars import is_line, is_long, lacks_datum
 
 
@@ -59,6 +60,6 @@ TESTS: dict[str, Callable[[xr.Dataset], bool]] = {
     each.__name__: each
     for each in (
         *(has_line_load, has_outline, has_loops, has_force_curve),
-        *(has_slip, has_stored_slip, has_shift),
+        *(has_slip, has_stored_slip, has_shift, has_creepages),
     )
 }

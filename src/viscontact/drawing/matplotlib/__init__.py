@@ -38,6 +38,7 @@ from viscontact.drawing.matplotlib.histories.steady_motion import (
     compare_frictions,
     friction,
     motion_profile,
+    traction_creepage,
 )
 from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
@@ -152,6 +153,7 @@ __all__ = [
     "stick_map",
     "stress_section",
     "tornado",
+    "traction_creepage",
     "traction_profile",
     "trade_off",
     "trials",

@@ -17,12 +17,16 @@ from viscontact.drawing.plotly.loops import loops
 from viscontact.drawing.plotly.panel_over_run import histories
 from viscontact.drawing.plotly.pressure_map import outlines, pressure_map
 from viscontact.drawing.plotly.sections import line_loads, sections
+from viscontact.drawing.plotly.traction_creepage import traction_creepage
 
 #: Functions that the table names. Those of fields take maps, which may have a reference, and a
 #: look, the others a result, a look and a reference.
 INTERACTIVE: dict[str, Callable[..., Any]] = {
     each.__name__: each
-    for each in (friction, histories, line_loads, loops, outlines, pressure_map, sections)
+    for each in (
+        *(friction, histories, line_loads, loops, outlines, pressure_map, sections),
+        traction_creepage,
+    )
 }
 
 

@@ -139,7 +139,8 @@ def moving_influence_table(
     offsets = np.arange(count, dtype=np.float64) * cell[0]
     across = np.arange(shape[1 - axis], dtype=np.float64) * cell[1]
     half = compliance.instant * coefficient(offsets[:, None], across[None, :], cell)
-    table: Floats = np.concatenate([parity * half[:0:-1], half])
+    mirrored = half[:0:-1] if parity == 1 else -half[:0:-1]
+    table: Floats = np.concatenate([mirrored, half])
     for period in np.unique(compliance.periods):  # none without modes
         modes = compliance.of_period(period)
         table += _delayed(modes, period, (count, parity), across, cell, coefficient)
@@ -165,7 +166,8 @@ def _delayed(
     # Behind the loaded cell lie the same panels and samples in reverse, or their negatives.
     behind = len(ahead) - 1 if np.isfinite(period) else int(np.searchsorted(ahead, last))
     edges = np.concatenate([-ahead[behind:0:-1], ahead])
-    samples = [parity * values[::-1] for values in samples[:behind]][::-1] + samples
+    mirrored = [values[::-1] for values in samples[:behind]][::-1]
+    samples = (mirrored if parity == 1 else [-values for values in mirrored]) + samples
     table = np.zeros((2 * count - 1, len(across)))
     delayed = np.zeros((len(lengths), len(across)))
     known: dict[tuple[int, float], Floats] = {}  # most panels are alike

@@ -1,4 +1,4 @@
-"""Contacts in steady motion: friction over speed, and pressure along the motion."""
+"""Contacts in steady motion: friction over speed, traction, and pressure along the motion."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.friction import friction_panel, frictions_panel
 from viscontact.drawing.content.motion_profile import motion_panel
+from viscontact.drawing.content.traction_creepage import traction_creepage_panel
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
@@ -129,6 +130,55 @@ def compare_frictions(
     draw_panel(axes, panel)
     axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
     style.add_legend(axes, *named_keys(panel.curves), loc="best")
+    return style.figure_of(axes)
+
+
+def traction_creepage(
+    results: xr.Dataset, *, axes: Axes | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the traction of a rolling body over its creepage, with Carter's limits.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        From `viscontact.steady` with friction and creepages.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw in; by default a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The traction over what friction carries, positive where the body drives, with its error
+        bars: a line for each speed, of at most six. For long rollers Carter's (1926) curve is drawn
+        beside them; for a body that creeps with the compliances of slow and of fast motion.
+
+    Raises
+    ------
+    ValueError
+        If the result has no creepages.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    >>> creepages = [0.0, 0.02, 0.1]
+    >>> ds = vc.steady(ball, rubber, load, 0.1, friction=0.5, creepage=creepages, errors=False)
+    >>> axes = traction_creepage(ds).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('Creepage [%]', 'Traction over friction times force')
+    """
+    panel = traction_creepage_panel(results)
+    if axes is None:
+        wide = page_width(width, style.ONE_COLUMN)
+        axes = style.new_figure(wide, 0.7 * wide).subplots()
+    draw_panel(axes, panel)
+    axes.tick_params(which="both", labelsize=style.TICK_SIZE, colors=style.INK)
+    handles, labels = named_keys(panel.curves)
+    if len(handles) > 1:
+        style.add_legend(axes, handles, labels, loc="best")
     return style.figure_of(axes)
 
 

@@ -1,0 +1,197 @@
+"""Cases of steady rolling with traction: read, checked, run, resumed, shown and exported."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from interrupted_runs import same_bits
+from viscontact.case import read_case
+from viscontact.cli import main
+from viscontact.runs.directory import recorder
+
+CASE = """\
+title: Drive roller
+indenter: {shape: paraboloid, radius_x: infinite, radius_y: 30 mm}
+material: {law: zener, shear_modulus: 2 MPa, delayed_modulus: 6 MPa, viscosity: 600 kPa s, \
+poisson_ratio: 0.5}
+load: {kind: step, force: 200 N, tilt_y: 0}
+friction: {coefficient: 0.5}
+motion: {kind: steady, speed: [40 mm/s, 10 mm/s], creepage: [1 %, 3 %, -2 %]}
+grid: {shape: [1, 40], size: [100 mm, 16 mm], periodic: [true, false]}
+"""
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished run."""
+    here = tmp_path_factory.mktemp("drive")
+    (here / "case.yaml").write_text(CASE, encoding="utf-8")
+    assert main(["run", str(here / "case.yaml"), "-q"]) == 0
+    return here / "case"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def written(folder: Path, *changes: tuple[str, str]) -> Path:
+    text = CASE
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "changed.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_result_is_that_of_steady(finished: Path) -> None:
+    rubber = vc.Material(vc.Zener(2e6, 6e6, 6e5), poisson_ratio=0.5)
+    with pytest.warns(vc.AccuracyWarning, match="no datum"):
+        whole = vc.steady(
+            vc.Paraboloid(float("inf"), 0.03),
+            rubber,
+            vc.step(200.0, tilt_y=0.0),
+            [0.04, 0.01],
+            grid=vc.Grid((1, 40), (0.1, 0.016), periodic=(True, False)),
+            friction=0.5,
+            creepage=[0.01, 0.03, -0.02],
+        )
+    with vc.open_results(finished) as ds:
+        assert ds.tangential_force_y.dims == ("speed", "creepage")
+        assert ds.traction_y.dims == ("speed", "creepage", "x", "y")
+        for name in (
+            *("creepage", "tangential_force_y", "tangential_force_y_per_length", "drive_torque"),
+            *("friction_power_error", "slip_fraction", "traction_dissipation", "slip_state"),
+        ):
+            assert np.array_equal(ds[name], whole[name]), name
+            assert ds[name].attrs["units"] == whole[name].attrs["units"], name
+        assert (ds.tangential_force_y_per_length == ds.tangential_force_y / 0.1).all()
+
+
+def test_saved_result_is_opened_as_it_was(finished: Path, tmp_path: Path) -> None:
+    with vc.open_results(finished) as ds:
+        vc.save(ds.load(), tmp_path / "again.nc")
+        with vc.open_results(tmp_path / "again.nc") as again:
+            assert again.equals(ds)
+
+
+def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
+    folder: Path, finished: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder, "PAUSE", 0.0)
+    monkeypatch.setattr(recorder, "SHARE", 0.0)
+    found = recorder.Recorder._record
+
+    def stopped(record: recorder.Recorder, state: vc.ContactState) -> None:
+        found(record, state)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(recorder.Recorder, "_record", stopped)
+        assert main(["run", "case.yaml", "-q"]) == 130
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    with vc.open_results(finished) as whole:
+        assert same_bits("case", whole.load())
+
+
+def test_other_creepages_are_another_run(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "case.yaml", "-q"]) == 0
+    assert main(["run", "case.yaml", "-q", "--resume", "--set", "motion.creepage=2 %"]) == 2
+    assert "motion.creepage" in capsys.readouterr().err
+
+
+def test_check_show_and_export_go_by_speed(
+    folder: Path, finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "case.yaml"]) == 0
+    assert "3, from -0.02 to 0.03" in capsys.readouterr().out
+    assert main(["show", str(finished)]) == 0
+    assert main(["export", str(finished), "-o", "out.csv"]) == 0
+    header = Path("out.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert "friction_coefficient" in header
+    assert "tangential_force" not in header
+
+
+def test_report_and_figure_show_the_traction_over_creepage(folder: Path, finished: Path) -> None:
+    assert main(["report", str(finished), "-o", "report.html"]) == 0
+    page = Path("report.html").read_text(encoding="utf-8")
+    assert "Traction over creepage" in page
+    assert "traction-creepage" in page
+    with vc.open_results(finished) as ds:
+        rows = page.count("10 mm/s</td>")
+        assert rows >= ds.sizes["creepage"]
+    assert main(["plot", str(finished), "traction-creepage", "-o", "curve.png"]) == 0
+    assert Path("curve.png").stat().st_size > 0
+
+
+@pytest.mark.parametrize(
+    ("creepage", "found"),
+    [
+        ("3 %", [0.03]),
+        ("0.003", [0.003]),
+        ("{from: 0.1 %, to: 10 %, count: 3, spacing: log}", [0.001, 0.01, 0.1]),
+        ("{from: -1 %, to: 1 %, count: 3}", [-0.01, 0.0, 0.01]),
+    ],
+)
+def test_creepage_is_one_a_list_or_a_range(
+    creepage: str, found: list[float], tmp_path: Path
+) -> None:
+    case = read_case(written(tmp_path, ("[1 %, 3 %, -2 %]", creepage)))
+    np.testing.assert_allclose(case.motion.creepages, found, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("friction: {coefficient: 0.5}\n", ""), "friction: a creepage needs friction"),
+        ((", creepage: [1 %, 3 %, -2 %]", ""), "creepage: under friction a body in steady motion"),
+        (("[1 %, 3 %, -2 %]", "[1 %, 0.01]"), "each is needed once, got 0.01 twice"),
+        (("[1 %, 3 %, -2 %]", "150 %"), "motion.creepage"),
+        (("[1 %, 3 %, -2 %]", "[]"), "motion.creepage"),
+        (("[1 %, 3 %, -2 %]", "{from: 0, to: 1 %, count: 3, spacing: log}"), "spacing: log needs"),
+        (("creepage:", "rolling: false, creepage:"), "goes with a body that rolls"),
+        (("poisson_ratio: 0.5", "poisson_ratio: 0.4"), "friction.coupling: pressure and tractions"),
+        (("friction:", "tangential: {kind: step, force_y: 1 N}\nfriction:"), "tangential: a body"),
+        (("speed: [40", "speeds: [40"), "speed"),
+    ],
+)
+def test_refused_case_names_its_key(
+    change: tuple[str, str],
+    message: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["check", str(written(tmp_path, change))]) == 2
+    assert message in " ".join(capsys.readouterr().err.split())
+
+
+STEADY = (vc.Paraboloid(0.01, 0.01), vc.Material(vc.Elastic(1e6), 0.5), vc.step(1.0), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"friction": 0.3}, "^creepage: under friction"),
+        ({"creepage": 0.1}, "^friction: a creepage needs friction"),
+        ({"friction": 0.3, "creepage": []}, "^creepage: at least one is needed"),
+        ({"friction": 0.3, "creepage": [[0.1]]}, "^creepage must be a number or a list"),
+        ({"friction": 0.3, "creepage": [0.1, float("nan")]}, "^creepage must be a finite number"),
+        ({"friction": 0.3, "creepage": 1.5}, "^creepage must lie between -1 and 1"),
+        ({"friction": 0.3, "creepage": 0.1, "rolling": False}, "^creepage goes with a body"),
+    ],
+)
+def test_refused_argument_is_named(given: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        vc.steady(*STEADY, **given)
+
+
+def test_layers_under_friction_are_refused_by_name() -> None:
+    rubber = vc.Material(vc.Elastic(1e6), 0.5)
+    covered = vc.Layered([vc.Layer(5e-3, rubber)], base="rigid")
+    with pytest.raises(ValueError, match=r"^friction: bodies of layers are not supported"):
+        vc.steady(STEADY[0], covered, *STEADY[2:], friction=0.3, creepage=0.01)
