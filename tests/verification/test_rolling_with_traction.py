@@ -345,3 +345,157 @@ def test_two_cylinders_that_creep_roll_as_in_contact(time, way, peak, creepage):
     )
     assert last.peak_pressure == close_to(peak, rel=1e-3)
     assert last.creepage == close_to(creepage, rel=2e-2)
+
+
+#: A roller of one metal on a plane of another (mm, N, MPa): that of `bentall.inp` of CONTACT, with
+#: the contact of Hertz 0.1 mm wide to both sides. (1 - 2ν) J/(2 (1 - ν)) differs by 0.1438 of J.
+ALUMINIUM, IRON = (
+    vc.Material(vc.Elastic(g), ratio) for g, ratio in ((23000.0, 0.31), (8.2e4, 0.28))
+)
+DISSIMILAR_FORCE, DISSIMILAR_RADIUS = 16.2019, 25.0
+
+
+def dissimilar(
+    cells: int,
+    way: float,
+    friction: float,
+    part: float = 0.0,
+    *,
+    exchanged: bool = False,
+    creepage: float | None = None,
+) -> vc.ContactState:
+    """Coupled bodies, rolling under a part of what friction carries or under a creepage."""
+    cell = 0.2 / cells
+    steps = round(way * cells / 2)
+    count = cells + 16 + steps
+    count += count % 2
+    plane, roller = (ALUMINIUM, IRON) if exchanged else (IRON, ALUMINIUM)
+    force_y = part * friction * DISSIMILAR_FORCE
+    path = {"y": [0.0, steps * cell], "rolling": True, "creepage": creepage}
+    *_, last = vc.march(
+        vc.Paraboloid(math.inf, DISSIMILAR_RADIUS),
+        plane,
+        vc.step(DISSIMILAR_FORCE, **HELD),
+        vc.Grid((1, count), (1.0, count * cell), (True, False), centre=(0.0, steps * cell / 2)),
+        np.arange(steps + 1) * cell,
+        indenter_material=roller,
+        friction=friction,
+        tangential=vc.tangential_step(force_y=force_y) if creepage is None else None,
+        motion=vc.Travel([0.0, steps * cell], **path),
+    )
+    return last
+
+
+def bufler() -> tuple[float, float]:
+    """Creepage, and largest pressure over Hertz', of free rolling without slip.
+
+    With f = p + i q the stick condition of a long roller is (1/π) ∫ f ds/(y - s) + i c f = (y/R -
+    i ξ)/(2J), solved by f ~ (a - y)^(1/2 + i ε) (a + y)^(1/2 - i ε) with ε = ln((1 + c)/(1 - c))
+    over 2π; H. Bufler, Ing.-Arch. 28 (1959) 157; K. L. Johnson (1985), section 8.2.
+    """
+    whole = [(1 - m.poisson_ratio) / (2 * g) for m, g in ((ALUMINIUM, 23000.0), (IRON, 8.2e4))]
+    own = [
+        (1 - 2 * m.poisson_ratio) / (2 * (1 - m.poisson_ratio)) * each
+        for m, each in zip((ALUMINIUM, IRON), whole, strict=True)
+    ]
+    c = (own[0] - own[1]) / sum(whole)
+    exponent = math.log((1 + c) / (1 - c)) / (2 * math.pi)
+    hertz = math.sqrt(4 * DISSIMILAR_FORCE * DISSIMILAR_RADIUS * sum(whole) / math.pi)
+    half = hertz / math.sqrt(1 + 4 * exponent**2)
+    return 2 * exponent * half / DISSIMILAR_RADIUS, half
+
+
+@pytest.mark.slow
+def test_free_rolling_of_dissimilar_bodies_that_stick_has_the_creepage_of_bufler():
+    """Without slip nothing is lost: there is no resistance."""
+    exact, half = bufler()
+    errors = []
+    for cells in (10, 20):
+        last = dissimilar(cells, 8.0, 10.0)
+        errors.append(abs(last.creepage / exact - 1))
+        assert last.slip_fraction == 0
+        assert abs(last.resistance_y) < 1e-6 * DISSIMILAR_FORCE
+    assert errors[1] < 2e-3
+    assert errors[1] < errors[0] / 2.5
+    assert last.contact_width / 2 == close_to(half, rel=1e-2)
+
+
+def test_exchanged_bodies_creep_the_other_way():
+    """The plane is the roller and the roller the plane: q and the creepage change their sign."""
+    last, other = (dissimilar(8, 2.0, 0.05, exchanged=each) for each in (False, True))
+    assert last.creepage == close_to(-other.creepage, rel=1e-6)
+    assert last.peak_pressure == close_to(other.peak_pressure, rel=1e-5)
+    assert last.slip_fraction == other.slip_fraction
+
+
+#: CREEP X, PMAX and cells in adhesion of 200 by FX/FSTAT/FN, cases 4 to 6 of `bentall.ref_out`:
+#: friction 0.05; R. H. Bentall and K. L. Johnson, Int. J. Mech. Sci. 9 (1967) 389.
+BENTALL = {0.0: (4.294e-4, 103.6, 125), 0.75: (2.108e-4, 103.2, 36), -0.75: (5.392e-4, 103.3, None)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", BENTALL)
+def test_dissimilar_rollers_have_the_creepages_of_contact(part):
+    """The pressure feels the tractions: its resultant and that of the work are ahead or behind."""
+    creepage, peak, sticking = BENTALL[part]
+    last = dissimilar(40, 3.0, 0.05, part)
+    assert last.creepage == close_to(creepage, rel=4e-3)
+    assert last.peak_pressure == close_to(peak, rel=1e-3)
+    if sticking is not None:
+        assert 1 - last.slip_fraction == close_to(sticking / 200, abs=0.03)
+    # What the drive and the resistance do is heat of friction.
+    put_in = last.resistance_y - last.tangential_force_y * last.creepage
+    assert last.friction_power == close_to(put_in, rel=1.5e-2)
+
+
+@pytest.mark.slow
+def test_bodies_with_next_to_no_friction_roll_freely_at_the_creepage_of_bentall_and_johnson():
+    """All slips: in the middle, which carries half the load, forth, and back beside it.
+
+    Pressure stretches the surfaces by 2 Δ(c J) p against each other: the creepage is that at
+    |y| = 0.4040 a. CONTACT has 5.260e-4 (cases 1 and 2 of `bentall.ref_out`).
+    """
+    creepage = 2 * 2.7890e-6 * math.sqrt(1 - 0.4040**2) * 103.13
+    assert creepage == close_to(5.260e-4, rel=1e-3)
+    # A cell that turns round on both sides changes the force by a ninth of what friction carries.
+    below, above = (
+        dissimilar(40, 2.2, 1e-4, creepage=share * creepage).tangential_force_y
+        for share in (0.97, 1.03)
+    )
+    carried = 1e-4 * DISSIMILAR_FORCE
+    assert 0 < below < 0.2 * carried
+    assert 0 > above > -0.25 * carried
+
+
+@pytest.mark.slow
+def test_work_of_a_ball_on_a_dissimilar_plane_is_heat_of_friction():
+    """In three dimensions, of a drive under half of what friction carries; on 10 and 16 cells."""
+    soft, hard = vc.Material(vc.Elastic(1e6), 0.3), vc.Material(vc.Elastic(5e6), 0.2)
+    half, mu = 1e-3, 0.2
+    force = 4 * half**3 / (3 * RADIUS * (0.7 / 2e6 + 0.8 / 10e6))
+    errors = []
+    for cells in (10, 16):
+        cell, steps = 2 * half / cells, 2 * cells
+        count = cells + 8 + steps
+        size = (cells + 8) * cell, count * cell
+        *_, last = vc.march(
+            vc.Paraboloid(RADIUS, RADIUS),
+            soft,
+            vc.step(force, **HELD),
+            vc.Grid((cells + 8, count), size, centre=(0.0, steps * cell / 2)),
+            np.arange(steps + 1) * cell / 0.1,
+            indenter_material=hard,
+            friction=mu,
+            tangential=vc.tangential_step(force_y=-0.5 * mu * force),
+            motion=vc.Travel([0.0, steps * cell / 0.1], y=[0.0, steps * cell], rolling=True),
+        )
+        put_in = 0.1 * (last.resistance_y - last.tangential_force_y * last.creepage)
+        errors.append(abs(last.friction_power / put_in - 1))
+    assert errors[1] < 5e-3
+    assert errors[1] < errors[0] / 1.8
+
+
+def test_coupled_bodies_that_creep_are_refused_in_motion():
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3)
+    with pytest.raises(ValueError, match=r"coupled, which is not supported in the motion of"):
+        rolled(8, 1.0, material=rubber, creepage=0.01)

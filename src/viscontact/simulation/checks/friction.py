@@ -84,15 +84,16 @@ def _check_rolling(problem: Problem) -> None:
             "tangential.torque: torque and rotation of a body that moves are not supported; leave "
             "them out"
         )
-    refuse_coupled(problem)
+    if not problem.surface.creep.is_elastic:
+        refuse_coupled(problem, "in the motion of bodies that creep")
 
 
-def refuse_coupled(problem: Problem) -> None:
-    """Refuse bodies in motion whose pressure and tractions are coupled."""
+def refuse_coupled(problem: Problem, where: str) -> None:
+    """Refuse bodies whose pressure and tractions are coupled, where this is not supported."""
     if problem.is_coupled:
         raise ValueError(
             "friction.coupling: pressure and tractions of these bodies are coupled, which is not "
-            "supported in motion; give coupling=False, which neglects it, or bodies for which it "
+            f"supported {where}; give coupling=False, which neglects it, or bodies for which it "
             "cancels: two of the same material, or of Poisson's ratio 1/2"
         )
 

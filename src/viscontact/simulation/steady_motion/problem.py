@@ -115,7 +115,7 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
             "creepage: a body on a grid that is periodic along its motion has no end, and cannot "
             "roll; leave friction and creepage out"
         )
-    refuse_coupled(contact)
+    refuse_coupled(contact, "in steady motion (elastic bodies may roll over time, by simulate)")
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
