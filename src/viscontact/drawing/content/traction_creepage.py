@@ -14,7 +14,7 @@ from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import FAINT, FIRST, PERCENT, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_case import case_of
 from viscontact.results.rolling import TractionCurves, traction_curves
-from viscontact.units.formatting import ReadableUnit, format_quantity
+from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Most speeds that are drawn, digits of a speed, and points of an exact curve.
 _MOST, _DIGITS, _POINTS = 6, 3, 200
@@ -48,7 +48,7 @@ def traction_creepage_panel(run: xr.Dataset, look: Look = LIGHT) -> Panel:
     limits = min(float(drawn.min()), 0.0) * _ROOM, max(float(drawn.max()), 0.0) * _ROOM
     return Panel(
         Axis("Creepage", PERCENT, _with_zero(creepages)),
-        Axis("Traction over friction times force", ReadableUnit("-", 1.0), limits),
+        Axis("Traction over friction times force", readable_unit("1"), limits),
         (*curves, *_carter(run, creepages)),
         marks=(Mark(0.0), Mark(0.0, "y")) if drives and brakes else (),
         name="traction-creepage",
