@@ -117,7 +117,7 @@ def test_coupling_is_chosen_by_itself_where_it_cancels():
             "torque and rotation of a body that moves",
         ),
         (
-            {"friction": 0.3, "material": vc.Material(vc.Elastic(1e6), 0.3), "motion": DRIVEN},
+            {"friction": 0.3, "material": vc.Material(RUBBER.law, 0.3), "motion": DRIVEN},
             "friction.coupling: pressure and tractions of these bodies are coupled",
         ),
         (
