@@ -90,7 +90,7 @@ ONE_SPOT = 0.7
 COUPLED = 2.0
 
 #: Error of extents over that which a rim as uncertain as the area would cause.
-EXTENT_OF_AREA = 0.8
+EXTENT_OF_AREA = 0.75
 
 #: How many times as large bars are at the last instant before a contact is lost: errors grow until
 #: the loss, and many of the largest were there.
@@ -160,8 +160,8 @@ def error_bars_from(
     ends = with_least_errors(segment_end_errors(run, found), values, run, history)
     widen_after_events(values, run, history, ends)
     touching = touching_times(history, found)
-    bound_by_first_contact(values, history)
     bound_in_first_cells(values, history)
+    bound_by_first_contact(values, history)
     apart = certainly_separated(run, history, touching)
     zero_without_contact(run, values, apart, touching)
     peaks = values["peak_pressure"]

@@ -54,7 +54,8 @@ _FORCE = ErrorModel(
     of_receding=0.15,
     of_neighbours=0.3,
 )
-_OFFSET = ErrorModel(2.0, 1.0, at_end=ErrorModel(0.7, 0.8))
+_TILT = replace(_BULK, factor=1.0, of_neighbours=0.5)
+_OFFSET = ErrorModel(2.0, 1.0, at_end=ErrorModel(0.7, 0.8), of_neighbours=0.75)
 _WORK = ErrorModel(
     *(2.0, 1.19),
     at_end=ErrorModel(0.7, 1.2),
@@ -77,13 +78,13 @@ _AREA = ErrorModel(
     of_neighbours=0.6,
 )
 _PEAK = ErrorModel(
-    *(2.0, 1.52),
+    *(2.0, 1.44),
     at_end=ErrorModel(1.0, 1.5),
     of_spots=ErrorModel(2.0, 4.0),
     of_time_error=0.8,
     of_left_out=0.8,
     of_receding=0.8,
-    of_neighbours=0.8,
+    of_neighbours=0.65,
 )
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
@@ -101,7 +102,7 @@ _EXTENT = ErrorModel(
     steep=ErrorModel(1.0, 0.6),
     of_left_out=0.2,
     of_receding=1.0,
-    of_neighbours=0.5,
+    of_neighbours=0.4,
 )
 
 #: Ends of the segments of a load program.
@@ -131,8 +132,8 @@ ERROR_MODELS = {
     "eccentricity_x": _OFFSET,
     "eccentricity_y": _OFFSET,
     "approach": _BULK,
-    "tilt_x": _BULK,
-    "tilt_y": _BULK,
+    "tilt_x": _TILT,
+    "tilt_y": _TILT,
     "contact_area": _AREA,
     "contact_length": _EXTENT,
     "contact_width": _EXTENT,
