@@ -147,8 +147,8 @@ LEAST_END_AREA_ERROR = 1.1
 #: smooth peak drops by much less than the second number.
 LEAST_PEAK_ERROR, SMOOTH_DROP = 0.16, 0.2
 
-#: Part of that at the instants before and after that counts: a ridge of pressure beside the rim may
-#: lie in the middle of a cell at an instant.
+#: Part of that at the instants before and after that counts, times the ratio of the squares of the
+#: cells across: a ridge of pressure beside the rim may lie in the middle of a cell at an instant.
 PEAK_NEARBY = 0.45
 
 #: Least relative error of a peak under a body of points, times the square of the cells across: its
@@ -265,7 +265,8 @@ def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Floa
         relative = np.fmax(relative, by_points)
     has_no_rim = np.isinf(cells_across(run, history))
     relative = np.fmax(relative, np.where(has_no_rim, CREST_BETWEEN_CELLS * drops, 0.0))
-    relative = np.fmax(relative, PEAK_NEARBY * moving_maximum(relative, 1))
+    count = np.maximum(history["cells_across"], 1.0) ** 2
+    relative = np.fmax(relative, PEAK_NEARBY * moving_maximum(count * relative, 1) / count)
     return np.asarray(relative * history["peak_pressure"])
 
 
