@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -28,6 +28,7 @@ class Snapshot:
     body_end: Outline | None = None  # where the indenter ends between the cells, if known
     periodic: AxisFlags = NEITHER  # axes along which the fields are one period
     axis: RunAxis = TIME  # quantity in which the snapshots of a result differ
+    least_pull: float = 0.0  # least tension of the cohesive zone [Pa]; 0 without adhesion
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "periodic", AxisFlags(self.periodic, "periodic"))
@@ -44,13 +45,18 @@ class Snapshot:
         return bool(self.in_contact.any())
 
     @property
+    def in_zone(self) -> Bools:
+        """Cells of the cohesive zone, which pull outside the contact, shape (nx, ny)."""
+        return ~self.in_contact & (self.pressure <= -self.least_pull) & (self.least_pull > 0)
+
+    @property
     def cell_size(self) -> tuple[float, float]:
         """Edge lengths (dx, dy) of a cell [m]."""
         return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
 
     def extent(self) -> tuple[float, float, float, float]:
-        """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
-        rows, columns = (self.in_contact.any(axis=axis) for axis in (1, 0))
+        """Box (x_min, x_max, y_min, y_max) around the contact and its cohesive zone [m]."""
+        rows, columns = ((self.in_contact | self.in_zone).any(axis=axis) for axis in (1, 0))
         return self._box(self.x[rows], self.y[columns])
 
     def borders(self) -> tuple[float, float, float, float]:
@@ -78,7 +84,8 @@ class Snapshot:
         touched = _pad(self.in_contact, cells, self.periodic, False)
         end = self.body_end
         body_end = None if end is None else _with_border(end, cells, self.periodic)
-        return Snapshot(self.time, x, y, pressure, gap, touched, body_end, axis=self.axis)
+        options: Any = {"axis": self.axis, "least_pull": self.least_pull}
+        return Snapshot(self.time, x, y, pressure, gap, touched, body_end, **options)
 
     @property
     def middle(self) -> tuple[float, float]:

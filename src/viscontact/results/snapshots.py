@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -100,9 +101,23 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
         )
         place, axis = float(fields[dimension]), run_axis(results)
         touched = _as_shown(cells_in_contact(results, index)) > 0
-        return Snapshot(place, x, y, pressure, gap, touched, body_end, grid.periodic, axis)
+        options: Any = {"axis": axis, "least_pull": _least_pull(results, index, grid.cell_area)}
+        return Snapshot(place, x, y, pressure, gap, touched, body_end, grid.periodic, **options)
 
     return read
+
+
+def _least_pull(results: xr.Dataset, index: int, cell_area: float) -> float:
+    """Least tension of the cohesive zone, whose area is stored [Pa]; 0 without one."""
+    if "tensile_area" not in results:
+        return 0.0
+    dimension = _time_dimension(results)
+    fields = results["pressure"].isel({dimension: index})
+    area = results["tensile_area"].sel({"time": fields[dimension]}, method="nearest")
+    open_cells = cells_in_contact(results, index).values == 0
+    pulls = np.sort(-np.asarray(fields.values, dtype=np.float64)[open_cells])[::-1]
+    count = min(round(float(area) / cell_area), pulls.size)
+    return max(float(pulls[count - 1]), 0.0) if count else 0.0
 
 
 def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> Floats:

@@ -106,6 +106,12 @@ class Maps:
         """Notes on the stretch of the window and on peaks."""
         return "; ".join(filter(None, (self.window.note, self.peak_note)))
 
+    @property
+    def zone_note(self) -> str:
+        """Meaning of the line around a cohesive zone; empty without one."""
+        pulls = any(each.in_zone.any() for each in self.snapshots)
+        return "dashed: end of the cohesive zone" if pulls else ""
+
     def axes(self, units: Units = readable_unit) -> tuple[Axis, Axis]:
         """Axes x and y in the unit of the longer one."""
         unit = units("m", self.window.x, self.window.y)
@@ -147,7 +153,8 @@ class Maps:
     def cells(self, index: int, most: int) -> Floats:
         """Pressure of the averaged cells within the window [Pa]; NaN without contact."""
         shown = self.snapshots[index]
-        joined, share = shown.pressure[self.inside], shown.in_contact[self.inside].astype(float)
+        joined = shown.pressure[self.inside]
+        share = (shown.in_contact | shown.in_zone)[self.inside].astype(float)
         for axis, stride in enumerate(self.strides(most)):
             joined, share = (_averaged(each, stride, axis) for each in (joined, share))
         return np.where(share > 0, joined, np.nan)

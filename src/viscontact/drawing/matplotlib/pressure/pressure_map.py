@@ -13,6 +13,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
 
@@ -112,7 +113,8 @@ def _draw(maps: Maps, width: Width | None, *, in_colours: bool) -> Figure:
     for axes, each in zip(panels, maps.maps, strict=True):
         style.add_heading(axes, each.heading)
         mark_body(axes, each.body, maps.window)
-    style.add_heading(panels[0], maps.note, aside=True)
+    note = maps.note if in_colours else "; ".join(filter(None, (maps.note, maps.zone_note)))
+    style.add_heading(panels[0], note, aside=True)
     colours = _cell_colours(scale) if in_colours else _level_colours(scale)
     extend = "max" if scale.is_open and not in_colours else "neither"
     bar = figure.colorbar(colours, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
@@ -132,7 +134,7 @@ def _draw_cells(axes: Axes, shown: Map, window: Window, scale: ColourScale) -> N
     axes.pcolormesh(
         window.unit(wide.x),
         window.unit(wide.y),
-        np.ma.masked_equal(scale.unit(wide.pressure.T), 0.0),
+        np.ma.masked_where(~(wide.in_contact | wide.in_zone).T, scale.unit(wide.pressure.T)),
         cmap=colours,
         norm=Normalize(*scale.unit(scale.limits)),
         shading="nearest",
@@ -152,21 +154,38 @@ def draw_contours(
     outline = outline.clip_to_bbox(Bbox.from_extents(x_low, y_low, x_high, y_high))
     # Contours are drawn between the centres of cells, so half a cell short of the last ones.
     wide = beyond_period(shown.snapshot).with_border(1)
-    x, y = window.unit(wide.x), window.unit(wide.y)
-    colours = _level_colours(scale)
-    heights = _heights(scale)
+    if wide.in_zone.any():
+        # Without the contact, in which the pressure rises within a cell.
+        pulls = np.where(wide.in_contact, float(wide.pressure.min()), wide.pressure)
+        _fill_levels(axes, wide, window, scale, pulls, _zone_end(axes, wide, window, pulls))
     values = wide.pressure if scale.diverges else squared_pressure(wide)
-    norm = BoundaryNorm(heights, colours.cmap.N)
-    fill = axes.contourf(
-        x, y, values.T, levels=heights, cmap=colours.cmap, norm=norm, extend="both"
-    )
-    lines = axes.contour(
-        x, y, values.T, levels=heights[1:-1], colors=style.INK, linewidths=0.5, linestyles="solid"
-    )
-    for contours in (fill, lines):
-        contours.set_clip_path(outline, axes.transData)
+    lines = _fill_levels(axes, wide, window, scale, values, outline)
     axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
     return lines
+
+
+def _fill_levels(
+    axes: Axes, wide: Snapshot, window: Window, scale: ColourScale, values: Floats, edge: Path
+) -> QuadContourSet:
+    """Fill between levels, within an edge; return the lines at the levels."""
+    at = window.unit(wide.x), window.unit(wide.y), values.T
+    colours, heights = _level_colours(scale), _heights(scale)
+    norm = BoundaryNorm(heights, colours.cmap.N)
+    fill = axes.contourf(*at, levels=heights, cmap=colours.cmap, norm=norm, extend="both")
+    lines = axes.contour(
+        *at, levels=heights[1:-1], colors=style.INK, linewidths=0.5, linestyles="solid"
+    )
+    for contours in (fill, lines):
+        contours.set_clip_path(edge, axes.transData)
+    return lines
+
+
+def _zone_end(axes: Axes, wide: Snapshot, window: Window, pulls: Floats) -> Path:
+    """Draw the line at which the cohesive zone ends."""
+    at = window.unit(wide.x), window.unit(wide.y), pulls.T
+    level = [-wide.least_pull]
+    ends = axes.contour(*at, levels=level, colors=style.INK, linewidths=0.8, linestyles="dashed")
+    return ends.get_paths()[0]
 
 
 def _heights(scale: ColourScale) -> Floats:
