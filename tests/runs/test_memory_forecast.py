@@ -35,11 +35,16 @@ def problem(cells):
     load = vc.step(0.08, eccentricity_x=aside, eccentricity_y=across)
     times, grip = vc.uniform_times(2.0, 4), {{}}
     if "{kind}".startswith("pulled"):
-        ratio = 0.2 if "{kind}" == "pulled, coupled" else 0.5
+        ratio = 0.2 if "coupled" in "{kind}" else 0.5
         material, load = vc.Material(spring, poisson_ratio=ratio), vc.step(0.08)
-        across = 0.005 if "{kind}" == "pulled aside" else 0.0
+        across = 0.005 if "aside" in "{kind}" else 0.0
         pull = vc.TangentialHistory([0.5, 2.0], force_x=[0, 0.01], force_y=[0, across])
         grip = {{"friction": vc.Friction(0.3), "tangential": pull}}
+        if "layers" in "{kind}":
+            steel = vc.Material(vc.Elastic(5e6), poisson_ratio=0.3)
+            base = steel if "aside" in "{kind}" else "rigid"
+            material = vc.Layered([vc.Layer(1e-3, material)], base=base)
+            grip["friction"] = vc.Friction(0.3, coupling="coupled" in "{kind}")
     if "{kind}" == "rolled":
         material, load = vc.Material(spring, poisson_ratio=0.5), vc.step(0.08)
         path = vc.Travel([0.5, 2.0], x=[0, 2e-5], creepage=0.01)
@@ -96,6 +101,7 @@ measured = pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="measure
         ("pulled", 1024, None),
         ("pulled aside", 1024, None),
         ("pulled, coupled", 768, None),
+        ("pulled aside layers", 768, None),
         ("rolled", 768, None),
     ],
 )

@@ -33,6 +33,16 @@ def material(random: np.random.Generator) -> vc.Material:
     return vc.Material(laws[random.integers(4)], random.choice([0.5, random.uniform(0, 0.5)]))
 
 
+def layers(random: np.random.Generator) -> vc.Layered:
+    """One layer or two that creep differently, thinner or thicker than the contact is wide."""
+    thickness, kind = 10 ** random.uniform(-4.3, -2.8), random.integers(3)
+    base = "rigid" if kind == 0 else material(random)
+    own = [vc.Layer(thickness, material(random))]
+    if kind == 2:
+        own.append(vc.Layer(thickness * random.uniform(0.5, 3.0), material(random)))
+    return vc.Layered(own, base=base)
+
+
 def tangential(random: np.random.Generator, most: np.ndarray) -> vc.TangentialHistory:
     """Forces up to a limit at each corner along any direction or x, or motions."""
     forces = most * random.uniform(-0.95, 0.95, most.size)
@@ -51,7 +61,7 @@ def tangential(random: np.random.Generator, most: np.ndarray) -> vc.TangentialHi
     )
 
 
-def largest_gap(seed: int, *, coupling: bool = False) -> float:
+def largest_gap(seed: int, *, coupling: bool = False, layered: bool = False) -> float:
     """Largest duality gap of a random run, whose normal force goes to zero and back."""
     random = np.random.default_rng(seed)
     levels = np.append(0.05, random.choice(LEVELS, 5, p=[0.3, 0.3, 0.3, 0.1]))
@@ -62,7 +72,7 @@ def largest_gap(seed: int, *, coupling: bool = False) -> float:
     states = list(
         vc.march(
             body(random),
-            material(random),
+            layers(random) if layered else material(random),
             vc.ForceHistory(CORNERS, levels, tilt_x=0.0, tilt_y=0.0),
             vc.Grid((cells, cells), (4e-3, 4e-3)),
             np.linspace(0, 5, 16),
@@ -100,3 +110,15 @@ def test_random_histories_of_coupled_bodies_are_certified(seed):
 @pytest.mark.parametrize("first", range(600, tried(625, 700), 25))
 def test_many_random_histories_of_coupled_bodies_are_certified(first):
     assert max(largest_gap(seed, coupling=True) for seed in range(first, first + 25)) < 1e-6
+
+
+@pytest.mark.parametrize("seed", [3, 6, 13])
+@pytest.mark.parametrize("coupling", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_random_histories_on_layers_are_certified(seed, coupling):
+    assert largest_gap(seed, coupling=coupling, layered=True) < 1e-6
+
+
+@pytest.mark.slow
+def test_many_random_histories_on_layers_are_certified():
+    seeds = (4, 5, 8, 10, 11, 12, 14, 15, 16, 17)  # whose layers separate in few terms
+    assert max(largest_gap(seed, layered=True) for seed in seeds) < 1e-6

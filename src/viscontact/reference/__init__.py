@@ -26,6 +26,7 @@ from viscontact.reference.indentation import (
     resolution_error,
 )
 from viscontact.reference.layer import LayerContact, layer_punch, layer_sphere
+from viscontact.reference.layer_torsion import layer_torsion
 from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
 from viscontact.reference.lee_radok_contact import LeeRadokContact
 from viscontact.reference.line import LineContact, hertz_line
@@ -110,6 +111,7 @@ __all__ = [
     "jkr_sphere",
     "layer_punch",
     "layer_sphere",
+    "layer_torsion",
     "lee_radok_ramp",
     "lee_radok_step",
     "maugis_dugdale",

@@ -216,6 +216,12 @@ def stress_source(
         return StressSource(results, (under_pressure, *sheared), signs=(1.0, sign, sign))
     if poisson_ratio is not None:
         raise ValueError("poisson_ratio is for half-spaces; layers have their own, leave it out")
+    if "tangential_force_x" in results:
+        raise ValueError(
+            "stresses: those inside layers under friction are not available, as tractions along "
+            "the surface have a part in them; run the same case without friction for those of the "
+            "pressure alone"
+        )
     layered = recorded_object(results, body, "stresses")
     assert isinstance(layered, Layered)
     stack = as_elastic(layered)

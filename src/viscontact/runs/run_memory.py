@@ -41,6 +41,9 @@ ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.5, 2.0
 #: half of the grid; of less of it with symmetries.
 ARRAYS_OF_SLIP_SEARCH = 31.0
 
+#: Arrays of the coefficients and operators of each term of layers under shear, likewise.
+ARRAYS_OF_LAYERS = 16.0
+
 #: Arrays of the operators on the track of a creeping body that rolls.
 ARRAYS_OF_TRACK = 31.0
 
@@ -83,6 +86,7 @@ def run_memory(run: RunSetup) -> float:
         whole += share * ARRAYS_OF_SLIP_SEARCH
         if not (run.problem.motion.stands or run.problem.surface.creep.is_elastic):
             whole += share * ARRAYS_OF_TRACK
+        whole += share * ARRAYS_OF_LAYERS * len(run.problem.shear.layers)
         if run.problem.is_coupled:
             whole += ARRAYS_OF_COUPLING + share * COMPUTED_ARRAYS_OF_COUPLING + kept_there
     return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept

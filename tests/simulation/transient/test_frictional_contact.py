@@ -131,10 +131,43 @@ def test_what_cannot_be_computed_is_refused_before_the_first_step(given, said):
         vc.march(**{**PRESSED, **given})
 
 
-def test_layers_are_refused():
-    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
-    with pytest.raises(ValueError, match="bodies of layers are not supported under friction"):
+def test_layers_that_slide_are_refused():
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid", bonded=False)
+    with pytest.raises(ValueError, match=r"material\.bonded: a layer that slides"):
         march(vc.step(0.1), SHAKEN["x"], [1.0], material=body)
+
+
+def test_layers_that_repeat_along_one_axis_only_are_refused():
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
+    grid = vc.Grid((8, 40), (1e-3, 6e-3), periodic=(True, False))
+    with pytest.raises(ValueError, match=r"grid\.periodic: layers under friction that repeat"):
+        vc.march(
+            vc.Paraboloid(float("inf"), 0.01),
+            body,
+            vc.step(0.1),
+            grid,
+            [0.0, 1.0],
+            friction=vc.Friction(0.3, coupling=False),
+            tangential=vc.tangential_step(force_y=0.01),
+        )
+
+
+def test_stresses_inside_layers_under_friction_are_refused():
+    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
+    grid = vc.Grid((12, 12), (2e-3, 2e-3))
+    ds = vc.simulate(
+        vc.Sphere(0.01),
+        body,
+        vc.step(0.01),
+        grid,
+        [0.0],
+        friction=0.3,
+        tangential=vc.tangential_step(force_x=0.001),
+        errors=False,
+    )
+    for stresses in (vc.section_stresses, vc.interface_stresses):
+        with pytest.raises(ValueError, match="stresses: those inside layers under friction"):
+            stresses(ds)
 
 
 @pytest.mark.parametrize(

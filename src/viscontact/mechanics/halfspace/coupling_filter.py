@@ -6,7 +6,7 @@ transpose B^T, as work is reciprocal. Kernels are odd along one axis: their spec
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from viscontact.backend.transforms import (
 )
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.coupling_influence import CouplingTables, coupling_tables
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
+from viscontact.mechanics.halfspace.layered_shear_influence import layered_coupling
 from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
 from viscontact.mechanics.halfspace.shear_filter import keep, odd_spectrum, wave_numbers
 
@@ -73,13 +75,45 @@ class CouplingFilter:
         return np.asarray(self._transforms.real_inverse(lines, spare, 2)[..., :ny])
 
 
+class CouplingSum:
+    """Sum of maps, each of fields of its own."""
+
+    def __init__(self, parts: Sequence[CouplingFilter | MirroredCouplingFilter]) -> None:
+        self._parts = tuple(parts)
+
+    def within(self, shape: tuple[int, int]) -> CouplingSum:
+        """The same maps on a smaller block."""
+        return CouplingSum([part.within(shape) for part in self._parts])
+
+    def normal(self, tractions: Sequence[Floats]) -> Floats:
+        """Displacement into the surface under tractions along it [Pa m]."""
+        pairs = list(zip(self._parts, tractions, strict=True))
+        found = [part.normal(field) for part, field in pairs if field.any()]
+        return np.asarray(sum(found[1:], start=found[0])) if found else 0 * tractions[0][0]
+
+    def along(self, pressures: Sequence[Floats]) -> Floats:
+        """Displacement along the surface under pressures [Pa m], (2, nx, ny)."""
+        pairs = zip(self._parts, pressures, strict=True)
+        found = [part.along(field) for part, field in pairs if field.any()]
+        if not found:
+            return np.zeros((2, *pressures[0].shape))
+        return np.asarray(sum(found[1:], start=found[0]))
+
+
 def coupling_filter(
-    grid: Grid, transforms: Transforms | None = None, mirrored: tuple[bool, bool] = (False, False)
+    grid: Grid,
+    transforms: Transforms | None = None,
+    mirrored: tuple[bool, bool] = (False, False),
+    layers: LayeredShear | None = None,
 ) -> CouplingFilter | MirroredCouplingFilter:
-    """Maps on all cells of a grid, or on those with positive coordinates along mirrored axes."""
+    """Maps on all cells of a grid, or on those with positive coordinates along mirrored axes.
+
+    Those of layers are per unit compliance J of their surface, c included.
+    """
     if all(grid.periodic):
-        return _periodic_filter(grid, transforms)
-    tables, periodic = coupling_tables(grid), (grid.periodic[0], grid.periodic[1])
+        return _periodic_filter(grid, transforms, layers)
+    tables = coupling_tables(grid) if layers is None else layered_coupling(grid, layers)
+    periodic = grid.periodic[0], grid.periodic[1]
     if any(mirrored):
         return MirroredCouplingFilter(tables, mirrored, periodic, transforms)
     return block_filter(tables, periodic, transforms)
@@ -105,12 +139,19 @@ def block_filter(
     return CouplingFilter((nx, ny), lengths, symbol, transforms, within)
 
 
-def _periodic_filter(grid: Grid, transforms: Transforms | None) -> CouplingFilter:
+def _periodic_filter(
+    grid: Grid, transforms: Transforms | None, layers: LayeredShear | None
+) -> CouplingFilter:
     """Maps of waves, periodic along both axes: -2 k/|k|² i."""
     shape = grid.shape
     x, y, length = wave_numbers(shape, grid.cell_size)
     length[0, 0] = np.inf
     symbol_x, symbol_y = -2 * x / length**2, -2 * y / length**2
+    if layers is not None:
+        length[0, 0] = 1.0
+        waves, places = np.unique(length, return_inverse=True)
+        ratio = layers.ratios(waves).coupling[places].reshape(length.shape)
+        symbol_x, symbol_y = ratio * symbol_x, ratio * symbol_y
     # The shortest waves have no sign.
     if shape[0] % 2 == 0:
         symbol_x[shape[0] // 2] = 0.0

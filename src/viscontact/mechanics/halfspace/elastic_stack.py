@@ -95,13 +95,17 @@ class ElasticStack(SurfaceResponse):
 
     def ratio(self, wave_number: Numbers) -> Numbers:
         """L at wave numbers [1/m]."""
+        # Of the planes' vectors, the one without shear: S = -p, and p displaces by (1 - ν)/(μ q) L.
+        vectors = self.surface_waves(wave_number)
+        return np.asarray(-normal_compliance(vectors) / (1 - self.layers[0].poisson_ratio))
+
+    def surface_waves(self, wave_number: Numbers) -> Numbers:
+        """Two vectors y at the surface at wave numbers [1/m], shape (..., 4, 2)."""
         q = np.asarray(wave_number)
         waves = _Waves.beneath(self.base, q.shape)
         for layer in reversed(self.layers):
             waves = waves.above(layer, q)
-        # Of the planes' vectors, the one without shear: S = -p, and p displaces by (1 - ν)/(μ q) L.
-        top = self.layers[0]
-        return np.asarray(-normal_compliance(waves.vectors) / (1 - top.poisson_ratio))
+        return waves.vectors
 
 
 def _softness(poisson_ratio: float) -> float:

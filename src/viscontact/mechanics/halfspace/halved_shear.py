@@ -16,7 +16,16 @@ import scipy  # its transforms are imported at their first use
 
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.transforms import fast_length
-from viscontact.mechanics.halfspace.shear_filter import Entries, PairFilter, Parts, keep, wrapped
+from viscontact.mechanics.halfspace.shear_filter import (
+    Entries,
+    InPlane,
+    PairFilter,
+    Parts,
+    inverse_of_mean,
+    inverse_waves,
+    keep,
+    wrapped,
+)
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
 
@@ -107,17 +116,19 @@ def halved_shear_convolution(
         for at, (count, repeats) in enumerate(zip(counts, periodic, strict=True))
     ]
     padded = lengths[0], lengths[1]
-    direct, along_x = (
-        halved_spectrum(each, padded, axis, (1, 1)) for each in (tables.direct, tables.along_x)
-    )
-    cross = halved_spectrum(tables.cross, padded, axis, (-1, -1))
-    nothing = np.zeros(direct.shape)
     nx, ny = (count // 2 if at == axis else count for at, count in enumerate(counts))
     options |= {"axis": axis, "even": even}
-    return Parts(
-        HalvedShearFilter((nx, ny), padded, (direct, nothing, direct), **options),
-        HalvedShearFilter((nx, ny), padded, (along_x, cross, direct - along_x), **options),
-    )
+
+    def spectrum(table: Floats, sign: int) -> Floats:
+        return halved_spectrum(table, padded, axis, (sign, sign))
+
+    direct, along_x = (spectrum(each, 1) for each in (tables.direct, tables.along_x))
+    cross, nothing = spectrum(tables.cross, -1), np.zeros(direct.shape)
+    symbols = [(direct, nothing, direct), (along_x, cross, direct - along_x)]
+    for each in tables.corrections:
+        cross = spectrum(each.cross, -1)
+        symbols += [(spectrum(each.along_x, 1), cross, spectrum(each.along_y, 1))]
+    return Parts(*(HalvedShearFilter((nx, ny), padded, each, **options) for each in symbols))
 
 
 def halved_shear_preconditioner(
@@ -125,6 +136,7 @@ def halved_shear_preconditioner(
     cell_size: tuple[float, float],
     kappa: float,
     axis: int,
+    layers: InPlane | None = None,
     *,
     even: bool,
     **options: Any,
@@ -136,14 +148,13 @@ def halved_shear_preconditioner(
     plain = 2 * np.pi * np.fft.rfftfreq(shape[other], cell_size[other])[column(other)]
     x, y = (mirrored, plain) if axis == 0 else (plain, mirrored)
     length: Floats = np.hypot(x, y)
-    half = length / 2
+    half, lost = inverse_waves(length, kappa, layers)
     safe = np.where(length > 0, length, 1.0)
-    lost = kappa / (1 + kappa)
     xx, yy = half * (1 - lost * (y / safe) ** 2), half * (1 - lost * (x / safe) ** 2)
     xy = lost * half * x * y / safe**2
     if shape[other] % 2 == 0:  # the shortest waves have no sign
         xy[part_along(other, slice(-1, None))] = 0.0
-    xx[0, 0] = yy[0, 0] = min([*half[0, 1:2], *half[1:2, 0]]) / (1 + kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
     options |= {"axis": axis, "even": even, "single": True}
     return HalvedShearFilter(shape, shape, (xx, xy, yy), **options)
 

@@ -23,6 +23,7 @@ for an offset x along the period, with Bernoulli's polynomials (Abramowitz & Ste
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -194,11 +195,8 @@ def correction_coefficient(
     x: Floats, ny: int, cell_size: tuple[float, float], response: SurfaceResponse
 ) -> Floats:
     """Integrals of Δ over cells at any offsets x [m] and of j < ny cells along y [m]."""
-    (dx, dy), x = cell_size, np.abs(x)
-    # Tables are kept: one for all grids of similar extent.
-    farthest = math.hypot(float(x.max(initial=0.0)) + dx, (ny + 1) * dy) / response.length
-    power = math.ceil(math.log(max(farthest, 1.0)) / math.log(REACHES))
-    kernel = smooth_kernel(response, response.length * REACHES ** min(power, MOST_REACHES))
+    dy, x = cell_size[1], np.abs(x)
+    kernel = smooth_kernel(response, table_reach(x, ny, cell_size, response.length))
     is_near = x <= FAR * max(cell_size)
     ny_near = min(ny, int(FAR * max(cell_size) / dy) + 1)
     y = np.arange(ny, dtype=np.float64) * dy
@@ -208,6 +206,15 @@ def correction_coefficient(
     if is_near.any():
         table[is_near, :ny_near] = _by_corners(kernel, x[is_near], ny_near, cell_size)
     return table
+
+
+def table_reach(x: Floats, ny: int, cell_size: tuple[float, float], length: float) -> float:
+    """Reach of a table for cells at offsets up to x and ny cells along y [m]."""
+    # Tables are kept: one for all grids of similar extent.
+    dx, dy = cell_size
+    farthest = math.hypot(float(x.max(initial=0.0)) + dx, (ny + 1) * dy) / length
+    power = math.ceil(math.log(max(farthest, 1.0)) / math.log(REACHES))
+    return length * REACHES ** min(power, MOST_REACHES)
 
 
 def _gauss(kernel: SmoothKernel, x: Floats, y: Floats, cell_size: tuple[float, float]) -> Floats:
@@ -226,15 +233,23 @@ def _by_corners(kernel: SmoothKernel, x: Floats, ny: int, cell_size: tuple[float
     edges = np.concatenate([x + dx / 2, x - dx / 2])
     distances, places = np.unique(np.maximum(np.abs(edges), ON_EDGE * dx), return_inverse=True)
     sides = np.arange(0.5, ny) * dy
-    corners = _triangles(kernel, distances, sides) + _triangles(kernel, sides, distances).T
+    corners = triangles(kernel, distances, sides) + triangles(kernel, sides, distances).T
     # F is odd in X and in Y: that of the corner at -1/2 cells is that of the first, reversed.
     corners = np.sign(edges)[:, None] * corners[places]
     over_x = corners[: x.size] - corners[x.size :]
     return np.diff(over_x, axis=1, prepend=-over_x[:, :1])
 
 
-def _triangles(kernel: SmoothKernel, near: Floats, along: Floats) -> Floats:
-    """T(X, Y) of ascending X (`near`, rows) and Y (`along`, columns)."""
+def triangles(
+    kernel: SmoothKernel,
+    near: Floats,
+    along: Floats,
+    turn: Callable[[Floats], Floats] | None = None,
+) -> Floats:
+    """T(X, Y) of ascending X (`near`, rows) and Y (`along`, columns).
+
+    `turn` is a factor of the kernel by the direction, a function of t with Y/X = sinh t.
+    """
     # Pieces from zero on, each short enough for the rule.
     first = math.asinh(float(along[0]) / float(near[0]))
     before = along[0] * np.exp(-LONGEST_PIECE * np.arange(int(first / LONGEST_PIECE), 0, -1))
@@ -245,7 +260,9 @@ def _triangles(kernel: SmoothKernel, near: Floats, along: Floats) -> Floats:
     short = half.max(axis=0) <= SHORT_PIECE / 2
     for columns, rule in ((~short, CORNER_RULE), (short, SHORT_RULE)):
         for node, weight in zip(*rule, strict=True):
-            grown = np.cosh(middle[:, columns] + node * half[:, columns])
+            place = middle[:, columns] + node * half[:, columns]
+            grown = np.cosh(place)
             moments = kernel.moment(near[:, None] * grown)
-            pieces[:, columns] += weight * half[:, columns] * moments / grown
+            turned = moments if turn is None else moments * turn(place)
+            pieces[:, columns] += weight * half[:, columns] * turned / grown
     return np.asarray(np.cumsum(pieces, axis=1)[:, before.size :])

@@ -16,7 +16,15 @@ import scipy  # its transforms are imported at their first use
 
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.transforms import fast_length
-from viscontact.mechanics.halfspace.shear_filter import Entries, PairFilter, Parts, keep
+from viscontact.mechanics.halfspace.shear_filter import (
+    Entries,
+    InPlane,
+    PairFilter,
+    Parts,
+    inverse_of_mean,
+    inverse_waves,
+    keep,
+)
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
 #: True along x and along y if the component x is even there.
@@ -99,12 +107,13 @@ def mirrored_shear_convolution(tables: ShearTables, even: Evenness, **options: A
     lengths = fast_length(nx), fast_length(ny)
     direct, along_x = (_cosines(table, lengths) for table in (tables.direct, tables.along_x))
     cross, nothing = _sines(tables.cross, lengths), np.zeros(direct.shape)
-    options |= {"even": even}
+    symbols = [(direct, nothing, direct), (along_x, cross, direct - along_x)]
+    for each in tables.corrections:
+        cross = _sines(each.cross, lengths)
+        symbols += [(_cosines(each.along_x, lengths), cross, _cosines(each.along_y, lengths))]
+    shape = nx // 2, ny // 2
     return Parts(
-        MirroredShearFilter((nx // 2, ny // 2), lengths, (direct, nothing, direct), **options),
-        MirroredShearFilter(
-            (nx // 2, ny // 2), lengths, (along_x, cross, direct - along_x), **options
-        ),
+        *(MirroredShearFilter(shape, lengths, each, even=even, **options) for each in symbols)
     )
 
 
@@ -113,6 +122,7 @@ def mirrored_shear_preconditioner(
     cell_size: tuple[float, float],
     kappa: float,
     even: Evenness,
+    layers: InPlane | None = None,
     **options: Any,
 ) -> MirroredShearFilter:
     """Approximate inverse of the displacement of a quarter of a block, taken as a period [1/m]."""
@@ -122,13 +132,12 @@ def mirrored_shear_preconditioner(
     )
     x, y = x[:, None], y[None, :]
     length: Floats = np.hypot(x, y)
-    half = length / 2
+    half, lost = inverse_waves(length, kappa, layers)
     safe = np.where(length > 0, length, 1.0)
-    lost = kappa / (1 + kappa)
     xx, yy = half * (1 - lost * (y / safe) ** 2), half * (1 - lost * (x / safe) ** 2)
     # Of waves exp(i (x + y)) it is + x y; that of products of sines or cosines changes the sign.
     xy = -lost * half * x * y / safe**2
-    xx[0, 0] = yy[0, 0] = min(half[0, 1], half[1, 0]) / (1 + kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
     symbol = xx, xy, yy
     return MirroredShearFilter(shape, shape, symbol, even=even, single=True, **options)
 

@@ -8,7 +8,7 @@ both.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from typing import Any, Self
 
@@ -21,14 +21,18 @@ from viscontact.backend.transforms import (
     fastest_transforms,
     transforms_by,
 )
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
 #: Entries xx, xy and yy of a symmetric matrix.
 Entries = tuple[Numbers, Numbers, Numbers]
 
 
-#: Operators of different weights that are kept.
-MOST_SUMS = 4
+#: Ratios of waves along and across their wave vector to those of a half-space under pressure.
+InPlane = Callable[[Floats], tuple[Floats, Floats]]
+
+#: Operators of different weights that are kept, besides one for each part.
+MOST_SUMS = 2
 
 
 class PairFilter(ABC):
@@ -132,13 +136,28 @@ def shear_convolution(tables: ShearTables, periodic: tuple[bool, bool], **option
     along_x = _spectrum(tables.along_x, (nx, ny), 1)
     cross = _spectrum(tables.cross, (nx, ny), -1)
     poisson = along_x, cross, direct - along_x
-    return _parts((shape[0], shape[1]), (nx, ny), (direct, nothing, direct), poisson, options)
+    corrections = [
+        (
+            _spectrum(each.along_x, (nx, ny), 1),
+            _spectrum(each.cross, (nx, ny), -1),
+            _spectrum(each.along_y, (nx, ny), 1),
+        )
+        for each in tables.corrections
+    ]
+    symbols = (direct, nothing, direct), poisson, *corrections
+    return _parts((shape[0], shape[1]), (nx, ny), symbols, options)
 
 
 def periodic_shear_convolution(
-    shape: tuple[int, int], cell_size: tuple[float, float], **options: Any
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    layers: Sequence[LayeredShear] = (),
+    **options: Any,
 ) -> Parts:
-    """Displacement per unit compliance from the mean plane, of a load periodic along both axes."""
+    """Displacement per unit compliance from the mean plane, of a load periodic along both axes.
+
+    That of layers on a rigid base is from the surface without load.
+    """
     # A wave of traction along its wave vector moves the surface by 2/|k|, across it by 1 + κ times
     # as much: Johnson (1985), section 13.2, for a half-plane and for antiplane strain.
     x, y, length = wave_numbers(shape, cell_size)
@@ -148,41 +167,93 @@ def periodic_shear_convolution(
     cross = -direct * _odd(x * y / length**2, shape)
     nothing = np.zeros(direct.shape)
     poisson = across, cross, direct - across
-    return _parts(shape, shape, (direct, nothing, direct), poisson, options)
+    corrections = [_correction_of_waves(x, y, shape, each) for each in layers]
+    symbols = (direct, nothing, direct), poisson, *corrections
+    return _parts(shape, shape, symbols, options)
+
+
+def _correction_of_waves(
+    x: Floats, y: Floats, shape: tuple[int, int], response: LayeredShear
+) -> Entries:
+    """Entries of layers beyond those of a half-space of short waves, at wave numbers [m]."""
+    squared = x**2 + y**2
+    squared[0, 0] = 1.0  # k = 0 comes below
+    lengths, places = np.unique(np.sqrt(squared), return_inverse=True)
+    ratios, short = response.ratios(lengths), response.short_waves
+    along, across = (
+        (2 / lengths * (found - limit))[places].reshape(squared.shape)
+        for found, limit in ((ratios.along, short.along), (ratios.across, short.across))
+    )
+    split = across - along
+    cross = -split * _odd(x * y / squared, shape)
+    xx, yy = across - split * x**2 / squared, across - split * y**2 / squared
+    mean = response.mean_displacement
+    xx[0, 0] = yy[0, 0] = mean if np.isfinite(mean) else 0.0
+    return xx, cross, yy
 
 
 def shear_preconditioner(
-    shape: tuple[int, int], cell_size: tuple[float, float], kappa: float, **options: Any
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    kappa: float,
+    layers: InPlane | None = None,
+    **options: Any,
 ) -> ShearFilter:
     """Approximate inverse of the displacement of a block, taken as a period [1/m]."""
-    # The inverse symbol |k|/2 (l l^T + t t^T/(1 + κ)) of waves along l and across t.
     x, y, length = wave_numbers(shape, cell_size)
-    half = length / 2
-    # The mean of a block is a wave of about the longest length in it, not of none.
-    least = min([*half[0, 1:2], *half[1:2, 0]])
+    half, lost = inverse_waves(length, kappa, layers)
     safe = np.where(length > 0, length, 1.0)
-    lost = kappa / (1 + kappa)
     xx = half * (1 - lost * (y / safe) ** 2)
     yy = half * (1 - lost * (x / safe) ** 2)
     xy = lost * half * _odd(x * y / safe**2, shape)
-    xx[0, 0] = yy[0, 0] = least / (1 + kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
     return ShearFilter(shape, shape, (xx, xy, yy), single=True, **options)
 
 
+def inverse_waves(
+    length: Floats, kappa: float, layers: InPlane | None
+) -> tuple[Floats, Floats | float]:
+    """Inverse of the displacement of waves along k [1/m], and the part that those across lack."""
+    # The inverse symbol |k|/2 (l l^T + t t^T/(1 + κ)) of waves along l and across t, of layers
+    # |k|/2 (l l^T/A + t t^T/B).
+    half = length / 2
+    if layers is None:
+        return half, kappa / (1 + kappa)
+    along, across = layers(np.where(length > 0, length, length.max()))
+    return half / along, 1 - along / across
+
+
+def inverse_of_mean(half: Floats, lost: Floats | float, kappa: float) -> float:
+    """Inverse of the displacement of a block's mean [1/m]."""
+    # The mean of a block is a wave of about the longest length in it, not of none.
+    if isinstance(lost, float):
+        return float(min([*half[0, 1:2], *half[1:2, 0]])) / (1 + kappa)
+    across = half * (1 - lost)
+    return float(min([*across[0, 1:2], *across[1:2, 0]]))
+
+
 class Parts:
-    """Parts of a surface's response to shear: that of 1/r, and that by Poisson's ratio."""
+    """Parts of a surface's response to shear: of 1/r, by Poisson's ratio, and of layers."""
 
-    def __init__(self, direct: PairFilter, poisson: PairFilter) -> None:
-        self._both = direct, poisson
-        self._sums: dict[tuple[float, float, bool], PairFilter] = {}
+    def __init__(self, *parts: PairFilter) -> None:
+        self._parts = parts
+        self._sums: dict[tuple[Any, ...], PairFilter] = {}
 
-    def sum_of(self, direct: float, poisson: float, *, single: bool = False) -> PairFilter:
-        """Operator of given weights of both parts."""
-        key = direct, poisson, single
+    def sum_of(
+        self, direct: float, poisson: float, layers: Sequence[float] = (), *, single: bool = False
+    ) -> PairFilter:
+        """Operator of given weights of the parts."""
+        key = direct, poisson, *layers, single
         if key not in self._sums:
-            if len(self._sums) == MOST_SUMS:  # of a Poisson's ratio that varies
+            # Of a Poisson's ratio that varies, and of each term of layers.
+            if len(self._sums) >= MOST_SUMS + len(self._parts):
                 self._sums.clear()
-            found = self._both[0].sum_of(self._both, (direct, poisson))
+            used = [
+                (part, weight)
+                for part, weight in zip(self._parts, (direct, poisson, *layers), strict=False)
+                if weight or part in self._parts[:2]
+            ]
+            found = self._parts[0].sum_of(*zip(*used, strict=True))
             self._sums[key] = found.in_single() if single else found
         return self._sums[key]
 
@@ -190,12 +261,10 @@ class Parts:
 def _parts(
     shape: tuple[int, int],
     lengths: tuple[int, int],
-    direct: Entries,
-    poisson: Entries,
+    symbols: Sequence[Entries],
     options: dict[str, Any],
 ) -> Parts:
-    both = (ShearFilter(shape, lengths, symbol, **options) for symbol in (direct, poisson))
-    return Parts(*both)
+    return Parts(*(ShearFilter(shape, lengths, symbol, **options) for symbol in symbols))
 
 
 def _spectrum(table: Floats, lengths: tuple[int, int], sign: int) -> Floats:

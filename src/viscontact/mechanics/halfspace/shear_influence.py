@@ -46,12 +46,27 @@ FAR = 20.0
 
 
 @dataclass(frozen=True, eq=False)
+class PairTables:
+    """Coefficients [m] at i, j >= 0 cells from a cell under tractions, each of shape (nx, ny)."""
+
+    along_x: Floats  # of x to x
+    cross: Floats  # of x to y and reversed: odd along both axes
+    along_y: Floats  # of y to y
+
+    def within(self, shape: tuple[int, int]) -> PairTables:
+        """The part for a smaller block of cells."""
+        nx, ny = shape
+        return PairTables(self.along_x[:nx, :ny], self.cross[:nx, :ny], self.along_y[:nx, :ny])
+
+
+@dataclass(frozen=True, eq=False)
 class ShearTables:
     """Influence coefficients [m] at i, j >= 0 cells from a loaded cell, each of shape (nx, ny)."""
 
     direct: Floats  # K, of 1/r
     along_x: Floats  # X, of x²/r³
     cross: Floats  # Z, of x y/r³: odd along both axes
+    corrections: tuple[PairTables, ...] = ()  # of layers, beyond those of a half-space
 
     @property
     def along_y(self) -> Floats:
@@ -61,7 +76,12 @@ class ShearTables:
     def within(self, shape: tuple[int, int]) -> ShearTables:
         """The part for a smaller block of cells."""
         nx, ny = shape
-        return ShearTables(self.direct[:nx, :ny], self.along_x[:nx, :ny], self.cross[:nx, :ny])
+        return ShearTables(
+            self.direct[:nx, :ny],
+            self.along_x[:nx, :ny],
+            self.cross[:nx, :ny],
+            tuple(each.within(shape) for each in self.corrections),
+        )
 
 
 def shear_tables(grid: Grid) -> ShearTables:

@@ -70,16 +70,24 @@ class SmoothKernel:
 @lru_cache(maxsize=32)
 def smooth_kernel(response: SurfaceResponse, reach: float) -> SmoothKernel:
     """Table of Δ for distances up to `reach` [m]."""
-    length = response.length
+    t = table_places(response.length, reach)
+    return kernel_of(response.length, reach, _ray_integral(response, response.length, np.sinh(t)))
+
+
+def table_places(length: float, reach: float) -> Floats:
+    """Values of asinh(r/length) of a table of distances up to `reach` [m]."""
     count = int(np.ceil(np.arcsinh(reach / length) / STEP)) + MIRRORED
-    t = STEP * np.arange(0.5, count)  # none at r = 0, where H0 is singular
-    r = np.sinh(t)
-    values = _ray_integral(response, length, r)
-    # Over r/length: Δ is even, its moment's integrand odd in t.
-    moments = values * r * np.cosh(t)
+    return STEP * np.arange(0.5, count)  # none at r = 0, where H0 is singular
+
+
+def kernel_of(length: float, reach: float, values: Floats, *, sign: int = 1) -> SmoothKernel:
+    """Kernel of values times `length` at the places of a table, even (1) or odd (-1) in r."""
+    t = table_places(length, reach)
+    # Over r/length: if Δ is even, its moment's integrand is odd in t.
+    moments = values * np.sinh(t) * np.cosh(t)
     value, moment = (
-        scipy.interpolate.make_interp_spline(*extended(t, each, sign), k=DEGREE)
-        for each, sign in ((values, 1), (moments, -1))
+        scipy.interpolate.make_interp_spline(*extended(t, each, parity), k=DEGREE)
+        for each, parity in ((values, sign), (moments, -sign))
     )
     integral = moment.antiderivative()
     integral.c -= integral(0.0)  # the basis functions add up to one

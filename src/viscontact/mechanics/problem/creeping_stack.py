@@ -20,6 +20,7 @@ from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
+from viscontact.mechanics.halfspace.layered_shear import ShearRatios, stack_ratios
 
 
 class CreepingStack:
@@ -49,6 +50,13 @@ class CreepingStack:
         """C at wave numbers [1/m] and Laplace variables [1/s], shape (s, q) [1/Pa]."""
         found = [self.elastic(each) for each in s]
         return np.array([top * stack.ratio(wave_number) for stack, top in found])
+
+    def shear(self, wave_number: Numbers, s: Numbers) -> ShearRatios:
+        """Compliances under waves of traction, of shape (s, q) [1/Pa]."""
+        found = [self.elastic(each) for each in s]
+        ratios = [stack_ratios(stack, wave_number) for stack, _ in found]
+        tops = np.array([top for _, top in found])[:, None]
+        return ShearRatios(*(tops * np.array(each) for each in zip(*ratios, strict=True)))
 
     def elastic(self, s: Any) -> tuple[ElasticStack, Any]:
         """Elastic stack at one s, and the contact compliance of its uppermost layer [1/Pa]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 
@@ -38,8 +38,8 @@ from viscontact.bodies.surfaces import indenter_of
 from viscontact.bodies.surfaces.topographies import is_topography
 from viscontact.mechanics.problem.expansion import ThickenedLoad, Thickening, thickening_of
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
-from viscontact.mechanics.problem.series_body import span_of
-from viscontact.mechanics.problem.shear_terms import is_uncoupled
+from viscontact.mechanics.problem.series_body import Span, span_of
+from viscontact.mechanics.problem.shear_terms import ShearTerms, is_uncoupled, shear_terms
 from viscontact.mechanics.problem.surface import (
     SurfaceTerms,
     clock_of,
@@ -287,9 +287,23 @@ class Problem:
     @cached_property
     def surface(self) -> SurfaceTerms:
         """Creep functions and frequency responses of both bodies together."""
+        surface = surface_of(self.bodies, self._spans, self.clocks, self.ends)
+        if self.friction is None:
+            return surface
+        error = max(surface.splitting_error, self.shear.splitting_error)
+        return replace(surface, splitting_error=error)
+
+    @cached_property
+    def shear(self) -> ShearTerms:
+        """Creep functions and responses of both bodies together to tractions along the surface."""
+        return shear_terms(self.bodies, self.clocks, self._spans)
+
+    @cached_property
+    def _spans(self) -> tuple[Span, ...]:
+        """Times of interest of each body, where its terms depend on them [s]; none otherwise."""
         has_times = self.times is not None or self._steps_over_cells
         if not (has_times and any(map(follows_span, self.bodies))):
-            return surface_of(self.bodies, clocks=self.clocks, ends=self.ends)
+            return ()
         # The times of interest may follow from the law, and the law's series from these times.
         functions = [
             on_clock(part.contact_compliance(), clock)
@@ -297,8 +311,7 @@ class Problem:
             for part in materials_of(body)
         ]
         instants = self._instants(together(functions))
-        spans = [span_of(clock.reduced(instants)) for clock in self.clocks]
-        return surface_of(self.bodies, spans, self.clocks, self.ends)
+        return tuple(span_of(clock.reduced(instants)) for clock in self.clocks)
 
     @property
     def compliance(self) -> ContactCompliance:

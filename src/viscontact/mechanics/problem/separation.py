@@ -26,9 +26,10 @@ M. Bebendorf, Numer. Math. 86 (2000) 565: cross approximation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
 import scipy
@@ -37,6 +38,7 @@ from viscontact.backend.arrays import Numbers
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material, uniaxial_compression
+from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.surface_response import SummedResponse
 from viscontact.mechanics.problem.creeping_stack import CreepingStack, stack_of, transformed
 from viscontact.mechanics.problem.passivity import passive_share
@@ -82,6 +84,10 @@ ALIKE = 1e-6
 MOVES, ROUNDS, WORTHWHILE = (-1, 1, -2, 2), 3, 0.98
 
 
+#: Compliances of waves of a stack.
+Waves: TypeAlias = Callable[[CreepingStack, Numbers, Numbers], Numbers]
+
+
 @dataclass(frozen=True, eq=False)
 class Separation:
     """Terms (J_m, L_m) of a body of layers, and a bound of the relative error of their sum [-]."""
@@ -89,13 +95,18 @@ class Separation:
     compliances: tuple[ContactCompliance, ...]
     responses: tuple[SummedResponse, ...]
     error: float
+    stacks: tuple[ElasticStack, ...] = ()  # parts of all responses
 
 
 @lru_cache(maxsize=16)
 def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
     """Terms of the response of layers over times of interest [s]; ValueError if none come close."""
     series, deviation = series_body(body, span)
-    found = _Collocation(series).best()
+    return with_laws(Collocation(series).best(), body, series, deviation)
+
+
+def with_laws(found: Separation, body: Layered, series: Layered, deviation: float) -> Separation:
+    """Terms with the laws of a body itself, in whose place series were; ValueError if far off."""
     if series is body:
         return found
     # Creep functions of materials are those of the laws themselves, as the responses depend little
@@ -141,11 +152,14 @@ class _Choice:
         return len(self.materials) + len(self.waves)
 
 
-class _Collocation:
-    """Choice of creep functions and collocation points for one body."""
+class Collocation:
+    """Choice of creep functions and collocation points for one body.
 
-    def __init__(self, body: Layered) -> None:
-        self._stack = CreepingStack(body)
+    `compliance` are those of waves at wave numbers and Laplace variables, shape (s, waves).
+    """
+
+    def __init__(self, body: Layered, compliance: Waves = CreepingStack.compliance) -> None:
+        self._stack, self._compliance = CreepingStack(body), compliance
         whole, thinnest = body.thickness, min(layer.thickness for layer in body.layers)
         slow, fast = self._stack.rates
         decades = float(np.log10(fast / slow * MARGIN**2))
@@ -154,11 +168,14 @@ class _Collocation:
         self._ends = slow / MARGIN, fast * MARGIN
         self._omega = np.geomspace(*self._ends, int(decades * FREQUENCIES_PER_DECADE))
         self._s = np.geomspace(*self._ends, int(decades * COLLOCATION_PER_DECADE))
-        self._at_s = self._stack.compliance(self._q, self._s)
-        self._full = self._stack.compliance(self._q, 1j * self._omega)
+        self._at_s = self._waves(self._q, self._s)
+        self._full = self._waves(self._q, 1j * self._omega)
         self._weights = np.exp(-np.log(self._at_s).mean(axis=1))
         self._of_waves: dict[int, SeriesCompliance] = {}
         self._parts = _of_parts(body.materials, self._s)
+
+    def _waves(self, q: Numbers, s: Numbers) -> Numbers:
+        return self._compliance(self._stack, q, s)
 
     def best(self) -> Separation:
         """Terms with an error that is small enough, or as small as it becomes."""
@@ -198,7 +215,7 @@ class _Collocation:
         for _ in range(ROUNDS):
             before = choice.error
             for place in range(len(choice.waves)):
-                for moved in _neighbours(choice.waves, place):
+                for moved in _neighbours(choice.waves, place, self._at_s.shape[1]):
                     tried = self._collocated(replace(choice, waves=moved))
                     choice = tried if tried.error < WORTHWHILE * choice.error else choice
             if choice.error == before:
@@ -225,20 +242,20 @@ class _Collocation:
     def _separation(self, choice: _Choice) -> Separation:
         """Terms of a choice, made passive, with their error on finer grids."""
         functions, s = self._functions(choice), self._s[list(choice.points)]
-        weights = np.linalg.inv(_transforms(functions, s))
+        weights = _inverse(_transforms(functions, s))
         (low, high), count = self._ends, self._omega.size
         # Long waves on a fluid creep at any low frequency: only what is looked at is known.
         lowest = low if self._stack.flows else low / WIDER
         harmonic = _transforms(functions, 1j * np.geomspace(lowest, high * WIDER, FINEST * count))
-        weights += passive_share(harmonic, weights, self._stack.compliance(self._wide_q, s))
+        weights += passive_share(harmonic, weights, self._waves(self._wide_q, s))
         omega = np.geomspace(low, high, FINER * count)
         q = np.geomspace(self._q[0], self._q[-1], FINER * WAVES)
-        found = _transforms(functions, 1j * omega) @ weights @ self._stack.compliance(q, s)
-        error = np.abs(found / self._stack.compliance(q, 1j * omega) - 1).max()
+        found = _transforms(functions, 1j * omega) @ weights @ self._waves(q, s)
+        error = np.abs(found / self._waves(q, 1j * omega) - 1).max()
         stacks, tops = zip(*(self._stack.elastic(float(each)) for each in s), strict=True)
         rows = (weights * np.array(tops)).tolist()
         kernels = tuple(SummedResponse(tuple(stacks), tuple(row)) for row in rows)
-        return Separation(functions, kernels, SAFETY * float(error))
+        return Separation(functions, kernels, SAFETY * float(error), tuple(stacks))
 
     def _at_wave(self, index: int) -> SeriesCompliance:
         """Creep function of one wave number."""
@@ -250,16 +267,24 @@ class _Collocation:
         return self._of_waves[index]
 
 
+def _inverse(matrix: Numbers) -> Numbers:
+    """Inverse, of functions that are not independent the pseudo-inverse."""
+    try:
+        return np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.pinv(matrix, rcond=DEPENDENT))
+
+
 def _transforms(functions: Sequence[SeriesCompliance], s: Numbers) -> Numbers:
     """b_m(s) = s L[J_m] of creep functions, shape (s, m) [1/Pa]."""
     return np.stack([transformed(each, s) for each in functions], axis=1)
 
 
-def _neighbours(waves: tuple[int, ...], place: int) -> Iterator[tuple[int, ...]]:
+def _neighbours(waves: tuple[int, ...], place: int, count: int) -> Iterator[tuple[int, ...]]:
     """Indices of wave numbers with one of them moved."""
     for step in MOVES:
         moved = waves[place] + step
-        if 0 <= moved < WAVES and moved not in waves:
+        if 0 <= moved < count and moved not in waves:
             yield (*waves[:place], moved, *waves[place + 1 :])
 
 

@@ -18,12 +18,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import repeat
 
+import numpy as np
+
+from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
+from viscontact.mechanics.problem.series_body import ANY_TIMES, Span
+from viscontact.mechanics.problem.shear_separation import separate_shear
 from viscontact.mechanics.problem.surface import (
+    as_elastic,
     constant_poisson_ratio,
     on_clock,
     proportion,
@@ -42,17 +51,102 @@ class ShearTerm:
     direct: float  # weight of the part of 1/r [-]
     poisson: float  # weight of the part by κ [-]
     coupling: float  # weight of the part of the pressure; < 0 of the indenter [-]
+    layers: LayeredShear | None = None  # whose short waves the weights are
+
+
+@dataclass(frozen=True, eq=False)
+class ShearTerms:
+    """Terms of the surfaces of both bodies under shear."""
+
+    terms: tuple[ShearTerm, ...]
+    splitting_error: float = 0.0  # bound of the relative error of the sum [-]; 0 if exact
+
+    @property
+    def layers(self) -> tuple[LayeredShear, ...]:
+        """Responses of layers, in the order of their terms."""
+        return tuple(term.layers for term in self.terms if term.layers is not None)
+
+    @cached_property
+    def weights(self) -> tuple[tuple[float, float, tuple[float, ...]], ...]:
+        """Weights of the parts of the response in each term: both of a half-space, and layers."""
+        return tuple(
+            (
+                term.direct,
+                term.poisson,
+                tuple(float(term.layers is layers) for layers in self.layers),
+            )
+            for term in self.terms
+        )
+
+    @property
+    def coupled(self) -> tuple[LayeredShear | None, ...]:
+        """Responses by which pressure and tractions are coupled; None for half-spaces."""
+        half_spaces = any(term.layers is None for term in self.terms)
+        return (None, *self.layers) if half_spaces else self.layers
+
+    def coupled_sums(self, fields: Sequence[Floats]) -> tuple[Floats, ...]:
+        """What these responses act on, of the hereditary integrals of all terms."""
+        pairs = list(zip(self.terms, fields, strict=True))
+        own = tuple(field for term, field in pairs if term.layers is not None)
+        others = [term.coupling * field for term, field in pairs if term.layers is None]
+        return (np.asarray(sum(others)), *own) if others else own
 
 
 def shear_terms(
-    bodies: Sequence[Material | Layered], clocks: Sequence[Clock]
-) -> tuple[ShearTerm, ...]:
-    """Terms of the bodies that deform; ValueError for layers."""
+    bodies: Sequence[Material | Layered], clocks: Sequence[Clock], spans: Sequence[Span] = ()
+) -> ShearTerms:
+    """Terms of the bodies that deform, whose layers are bonded.
+
+    `spans` are those of the reduced times of interest [s], one for each body.
+    """
     terms: list[ShearTerm] = []
-    for body, clock, sign in zip(bodies, clocks, (1, -1), strict=False):
-        for term in _terms_of(_half_space(body), clock, sign):
+    error = 0.0
+    for body, clock, span, sign in zip(
+        bodies, clocks, spans or repeat(ANY_TIMES), (1, -1), strict=False
+    ):
+        if isinstance(body, Layered):
+            of_layers, own = _terms_of_layers(body, clock, span, sign)
+            terms, error = [*terms, *of_layers], max(error, own)
+            continue
+        for term in _terms_of(body, clock, sign):
             terms = _with_term(terms, term)
-    return tuple(terms)
+    return ShearTerms(tuple(terms), error)
+
+
+def refuse_sliding_layers(bodies: Sequence[Material | Layered]) -> None:
+    """Refuse layers that slide, which no force along the surface holds."""
+    for name, body in zip(("material", "indenter_material"), bodies, strict=False):
+        if isinstance(body, Layered) and not np.all(body.bonded):
+            raise ValueError(
+                f"{name}.bonded: a layer that slides on what is beneath carries no force along "
+                "the surface, so that a body on it has nothing to hold on to; bond the layers, or "
+                "leave friction out"
+            )
+
+
+def _terms_of_layers(
+    body: Layered, clock: Clock, span: Span, sign: int
+) -> tuple[list[ShearTerm], float]:
+    """Terms of layers, and the error of their sum."""
+    stack = as_elastic(body)
+    if stack is None:
+        found = separate_shear(body, span)
+        pairs = zip(found.compliances, found.responses, strict=True)
+        return [_term_of(*pair, clock, sign) for pair in pairs], found.error
+    compliance = body.layers[0].material.contact_compliance()
+    return [_term_of(compliance, LayeredShear((stack,), (1.0,)), clock, sign)], 0.0
+
+
+def _term_of(
+    compliance: ContactCompliance, response: LayeredShear, clock: Clock, sign: int
+) -> ShearTerm:
+    response = replace(response, side=sign)
+    short = response.short_waves
+    return ShearTerm(
+        on_clock(compliance, clock),
+        *(float(short.along), float(short.across - short.along), float(short.coupling)),
+        response,
+    )
 
 
 def _terms_of(material: Material, clock: Clock, sign: int) -> list[ShearTerm]:
@@ -73,21 +167,19 @@ def _terms_of(material: Material, clock: Clock, sign: int) -> list[ShearTerm]:
 def is_uncoupled(bodies: Sequence[Material | Layered]) -> bool:
     """True if pressure does not move the surfaces against each other along themselves."""
     # (1 - 2ν) J/(2 (1 - ν)) of one body less that of the other, if it deforms.
-    materials = [_half_space(body) for body in bodies]
-    if len(materials) == 2 and materials[0] == materials[1]:
+    if len(bodies) == 2 and bodies[0] == bodies[1]:
         return True
-    return all(abs(term.coupling) < NO_COUPLING for term in shear_terms(bodies, [TIME] * 2))
-
-
-def _half_space(body: Material | Layered) -> Material:
-    if isinstance(body, Layered):
-        raise ValueError("friction: bodies of layers are not supported under friction")
-    return body
+    if any(isinstance(body, Layered) for body in bodies):  # coupled at any Poisson's ratio
+        return False
+    found = shear_terms(bodies, [TIME] * 2)
+    return all(abs(term.coupling) < NO_COUPLING for term in found.terms)
 
 
 def _with_term(terms: list[ShearTerm], new: ShearTerm) -> list[ShearTerm]:
     """Terms with another one, added to one with a proportional creep function."""
     for index, known in enumerate(terms):
+        if known.layers is not None:
+            continue
         factor = proportion(new.compliance, known.compliance)
         if factor is not None:
             shares = 1 / (1 + factor), factor / (1 + factor)

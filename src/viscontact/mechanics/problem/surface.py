@@ -65,11 +65,6 @@ class SurfaceTerm:
         """True if short waves see the term, beyond rounding."""
         return abs(self.response.short_waves) > ROUNDING
 
-    @property
-    def short_wave_compliance(self) -> ContactCompliance:
-        """J(t) of short waves [1/Pa]."""
-        return self.compliance.scaled(self.response.short_waves)
-
 
 @dataclass(frozen=True, eq=False)
 class SurfaceTerms:
@@ -77,11 +72,16 @@ class SurfaceTerms:
 
     terms: tuple[SurfaceTerm, ...]  # the first is one that short waves see
     splitting_error: float = 0.0  # bound of the relative error of the sum [-]; 0 if exact
+    tops: tuple[ContactCompliance, ...] = ()  # contact compliances at the surfaces of the bodies
 
     @cached_property
     def compliance(self) -> ContactCompliance:
         """J(t) of short waves, which do not feel the layers [1/Pa]."""
-        return together([term.short_wave_compliance for term in self.terms if term.is_local])
+        local = [term for term in self.terms if term.is_local]
+        if any(term.response.short_waves < 0 for term in local):
+            # Terms that cancel are no creep functions of their own, but their sum is.
+            return together(list(self.tops))
+        return together([term.compliance.scaled(term.response.short_waves) for term in local])
 
     @cached_property
     def creep(self) -> ContactCompliance:
@@ -139,7 +139,11 @@ def surface_of(
             terms = _with_term(terms, clocked)
         if isinstance(body, Layered) and as_elastic(body) is None:
             error = max(error, separate(body, span).error)
-    return SurfaceTerms(tuple(terms), error)
+    tops = tuple(
+        on_clock(materials_of(body)[0].contact_compliance(), clock)
+        for body, clock in zip(bodies, clocks or repeat(TIME), strict=False)
+    )
+    return SurfaceTerms(tuple(terms), error, tops)
 
 
 def clock_of(body: Material | Layered, temperature: TemperatureHistory | None) -> Clock:

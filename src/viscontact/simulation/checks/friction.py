@@ -11,8 +11,9 @@ import numpy as np
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.tangential import TangentialLoad
+from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.problem.shear_terms import is_uncoupled, shear_terms
+from viscontact.mechanics.problem.shear_terms import is_uncoupled, refuse_sliding_layers
 from viscontact.mechanics.problem.surface import constant_poisson_ratio
 from viscontact.units.formatting import format_quantity
 
@@ -54,7 +55,7 @@ def check_friction(problem: Problem) -> None:
             "tangential=vc.tangential_step(force_x=1.0) or, in a case, 'tangential: {kind: step, "
             "force_x: 1 N}'"
         )
-    shear_terms(problem.bodies, problem.clocks)
+    refuse_sliding_layers(problem.bodies)
     if problem.tangential is not None:
         check_grip(problem)
 
@@ -101,6 +102,13 @@ def refuse_coupled(problem: Problem, where: str) -> None:
 def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
     """Refuse a tangential load that a periodic grid has no meaning for."""
     load = problem.tangential
+    rows = any(grid.periodic) and not all(grid.periodic) and min(grid.shape) > 1
+    if rows and problem.friction is not None and problem.shear.layers:
+        raise ValueError(
+            "grid.periodic: layers under friction that repeat along one axis only are not "
+            "supported but as a line contact; give one cell along the period, a grid that is "
+            "periodic along both axes, or one without a period"
+        )
     if load is None or not any(grid.periodic):
         return
     points = [load.at(time, side=side) for time in load.kinks for side in ("left", "right")]
@@ -110,12 +118,12 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
             f"tangential.{turning}: a body without end does not turn; leave torque and rotation "
             "out, or give a grid without a period"
         )
-    if not grid.has_datum and any(
+    if not problem.has_datum(grid) and any(
         motion is not None for point in points for motion in point.motions[:2]
     ):
         raise ValueError(
             "tangential.displacement_x: a line contact has no point at rest that a displacement "
-            "counts from; prescribe forces"
+            "counts from, but on layers on a rigid base; prescribe forces"
         )
 
 
@@ -123,6 +131,12 @@ def coupling_warnings(problem: Problem) -> dict[str, str]:
     """Warn of bodies whose pressure and tractions are coupled, where that is neglected."""
     if problem.friction is None or problem.friction.coupling or is_uncoupled(problem.bodies):
         return {}
+    if any(isinstance(body, Layered) for body in problem.bodies):
+        return {
+            "coupling": "pressure moves the surface of layers along itself at any Poisson's ratio, "
+            "and this is neglected (coupling=False); where nearly incompressible layers are thin "
+            "against the contact, tractions and shifts are wrong by half"
+        }
     ratios = [constant_poisson_ratio(material) for material in problem.materials]
     if all(ratio is not None and ratio >= NEARLY_INCOMPRESSIBLE for ratio in ratios):
         return {}
@@ -134,7 +148,7 @@ def coupling_warnings(problem: Problem) -> dict[str, str]:
 
 def rise_warnings(problem: Problem, grid: Grid) -> dict[str, str]:
     """Warn of a line contact under a creepage, whose traction rises by the size of the grid."""
-    if problem.motion.creepage is None or grid.has_datum:
+    if problem.motion.creepage is None or problem.has_datum(grid):
         return {}
     return {
         "rise": (

@@ -165,7 +165,7 @@ def shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[Sh
     first, last = _times(problem, extents)
     found = []
     for place, body in enumerate(problem.contact.bodies):
-        for term in shear_terms([body], [TIME]):
+        for term in shear_terms([body], [TIME]).terms:
             of_pressure = SurfaceTerm(term.compliance, HALF_SPACE)
             law = (
                 _law(of_pressure, *_series(of_pressure.compliance, first, last))

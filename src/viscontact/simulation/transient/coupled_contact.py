@@ -32,8 +32,7 @@ from viscontact.mechanics.contact.friction.mixing import AndersonMixing
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.region import Region
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
-from viscontact.mechanics.halfspace.coupling_filter import CouplingFilter, coupling_filter
-from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
+from viscontact.mechanics.halfspace.coupling_filter import CouplingSum, coupling_filter
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.friction import Grip, Growth
@@ -49,9 +48,6 @@ from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import SlipGuess, solved_on
 from viscontact.simulation.transient.step_solution import StepSolution
-
-#: Operators between tractions and displacement into the surface.
-Coupling = CouplingFilter | MirroredCouplingFilter
 
 #: Alternations of one step.
 MOST_ALTERNATIONS = 40
@@ -78,7 +74,7 @@ class CoupledContact(FrictionalContact):
         self._operator, self._computed = _operator_of(run), _computed_cells(run)
         self._growth = Growth()
         #: Operators of regions, which are kept.
-        self._block: tuple[Region, Coupling] | None = None
+        self._block: tuple[Region, CouplingSum] | None = None
 
     def earlier_lift(self, step: TimeStep) -> Floats:
         """Displacement into the surface at the end of a step by earlier tractions [m]."""
@@ -153,12 +149,9 @@ class CoupledContact(FrictionalContact):
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
 
-    def _lift(self, sums: Floats) -> Floats:
+    def _lift(self, sums: tuple[Floats, ...]) -> Floats:
         """Displacement of the computed cells into the surface by sums Q of all cells [m]."""
-        computed = sums[:, *self._computed]
-        if not computed.any():
-            return np.zeros(computed.shape[1:])
-        return self._operator.normal(computed)
+        return self._operator.normal([each[:, *self._computed] for each in sums])
 
     def _slip(
         self,
@@ -172,13 +165,15 @@ class CoupledContact(FrictionalContact):
         region = self._region_of(contact)
         known = self._known(step, contact, region, response.shear)
         later = response.of_pressure(contact.pressure)
-        moved = self._on(region).along((later - response.before)[region.cut])
+        moved = self._on(region).along(
+            [(now - then)[region.cut] for now, then in zip(later, response.before, strict=True)]
+        )
         known = replace(known, past=known.past + moved)
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way))
 
-    def _on(self, region: Region) -> Coupling:
+    def _on(self, region: Region) -> CouplingSum:
         """Operator on a region."""
         if self._block is None or self._block[0] != region:
             self._block = region, self._operator.within(region.shape)
@@ -205,8 +200,13 @@ class CoupledContact(FrictionalContact):
         self._growth = Growth(None if grown is None else Grip(**grown), restart_data["most"])
 
 
-def _operator_of(run: RunSetup) -> Coupling:
-    return coupling_filter(run.grid, transforms_by(run.transforms, run.threads), run.mirrored)
+def _operator_of(run: RunSetup) -> CouplingSum:
+    transforms = transforms_by(run.transforms, run.threads)
+    parts = (
+        coupling_filter(run.grid, transforms, run.mirrored, each)
+        for each in run.problem.shear.coupled
+    )
+    return CouplingSum(tuple(parts))
 
 
 def _computed_cells(run: RunSetup) -> tuple[slice, slice]:

@@ -5,7 +5,8 @@ tractions displace the surface into itself by B Q and pressures along itself by 
 
     Q = Σ c_m ∫ J_m(t - t') dq(t'),   P = Σ c_m ∫ J_m(t - t') dp(t').
 
-Creep is in these sums, so that each is one convolution.
+Creep is in these sums, so that each is one convolution. Layers have an operator for each term, and
+sums of their own (`ShearTerms.coupled`).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
+from viscontact.mechanics.problem.shear_terms import ShearTerms
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryIntegral,
@@ -32,37 +33,39 @@ from viscontact.simulation.transient.shear_history import ShearStep
 class CouplingStep:
     """Sums P and Q of a step as functions of its new pressure and tractions."""
 
-    terms: tuple[ShearTerm, ...]
+    terms: ShearTerms
     responses: tuple[HereditaryResponse, ...]  # to pressure
     shear: ShearStep  # response to tractions
-    before: Floats  # P at the begin of the step [-], (nx, ny)
+    before: tuple[Floats, ...]  # P at the begin of the step [-], (nx, ny)
 
-    def of_pressure(self, pressure: Floats) -> Floats:
+    def of_pressure(self, pressure: Floats) -> tuple[Floats, ...]:
         """P at the end of the step [-]."""
-        return _sum(self.terms, [response.of(pressure) for response in self.responses])
+        return self.terms.coupled_sums([response.of(pressure) for response in self.responses])
 
-    def of_traction(self, traction: Floats) -> Floats:
+    def of_traction(self, traction: Floats) -> tuple[Floats, ...]:
         """Part of Q by the new tractions [-], (2, nx, ny)."""
-        pairs = zip(self.terms, self.shear.responses, strict=True)
-        weight = sum(term.coupling * response.compliance for term, response in pairs)
-        return np.asarray(weight * traction)
+        pairs = list(zip(self.terms.terms, self.shear.responses, strict=True))
+        own = (response.compliance for term, response in pairs if term.layers is not None)
+        others = [term.coupling * each.compliance for term, each in pairs if term.layers is None]
+        weights = [sum(others), *own] if others else own
+        return tuple(np.asarray(weight * traction) for weight in weights)
 
     @property
-    def past(self) -> Floats:
+    def past(self) -> tuple[Floats, ...]:
         """Part of Q by earlier tractions [-], (2, nx, ny)."""
-        return _sum(self.terms, [response.history for response in self.shear.responses])
+        return self.terms.coupled_sums([response.history for response in self.shear.responses])
 
 
 class CouplingHistory:
     """Hereditary integrals of the pressure over the whole grid, one for each term under shear."""
 
     def __init__(self, run: RunSetup) -> None:
-        self._terms = shear_terms(run.problem.bodies, run.problem.clocks)
+        self._terms = run.problem.shear
         plans = run.shear_plans
         laws = tuple(plan.clocked_compliance for plan in plans) if len(plans) > 1 else ()
         shape = run.grid.shape
         self._integrals: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
-        self._before = np.zeros(shape)
+        self._before = tuple(np.zeros(shape) for _ in self._terms.coupled)
 
     def respond(self, step: TimeStep, shear: ShearStep) -> CouplingStep:
         """Response to a step, with that to its tractions."""
@@ -78,7 +81,7 @@ class CouplingHistory:
 
     def map_fields(self, grown: FieldMap) -> None:
         """Continue on a larger grid."""
-        self._before = grown(self._before)
+        self._before = tuple(grown(each) for each in self._before)
         for integral in self._integrals:
             integral.map_fields(grown)
 
@@ -86,16 +89,11 @@ class CouplingHistory:
         """Return the state after a step as plain data."""
         return {
             "integrals": [integral.restart_data() for integral in self._integrals],
-            "before": self._before,
+            "before": list(self._before),
         }
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data of the same run."""
         for integral, data in zip(self._integrals, restart_data["integrals"], strict=True):
             integral.restore(data)
-        self._before = restart_data["before"]
-
-
-def _sum(terms: tuple[ShearTerm, ...], fields: list[Floats]) -> Floats:
-    """Sum of the fields of all terms by their weights."""
-    return np.asarray(sum(term.coupling * field for term, field in zip(terms, fields, strict=True)))
+        self._before = tuple(restart_data["before"])

@@ -165,7 +165,7 @@ class FrictionalContact(Uncoupled):
             # nearest cells as at first.
             lifted = solution.gap.min() - self._run.open_gap.min()
             after = before.apart(solution.gap - lifted, found)
-        scalars = slip_scalars(grid, step.duration, before, after, found)
+        scalars = slip_scalars(self._run, step.duration, before, after, found)
         if self._moves:
             scalars |= rolling_scalars(self._run, (self._time, step.time), before, after)
         return SlipTrial(
@@ -290,4 +290,5 @@ def _domain_of(run: RunSetup) -> ShearDomain:
     # A moving contact leaves a track, which is another region.
     shapes = 1 if run.problem.motion.stands else 2
     transforms = transforms_by(run.transforms, run.threads)
-    return ShearDomain(run.grid, transforms, symmetry_of(run), shapes=shapes)
+    layers = run.problem.shear.layers
+    return ShearDomain(run.grid, transforms, symmetry_of(run), layers, shapes=shapes)

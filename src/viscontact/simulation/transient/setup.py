@@ -19,7 +19,6 @@ from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.problem.shear_terms import shear_terms
 from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
@@ -69,7 +68,7 @@ class RunSetup:
     @property
     def shear_plans(self) -> tuple[HereditaryPlan, ...]:
         """Methods of the hereditary integrals of tractions, of all terms under shear."""
-        terms = shear_terms(self.problem.bodies, self.problem.clocks)
+        terms = self.problem.shear.terms
         numbers = 2 * self.open_gap.size
         return tuple(_planned(self.problem, [term.compliance for term in terms], numbers))
 

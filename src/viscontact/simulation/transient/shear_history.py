@@ -18,7 +18,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
 from viscontact.mechanics.halfspace.shear_filter import PairFilter
-from viscontact.mechanics.problem.shear_terms import ShearTerm, shear_terms
+from viscontact.mechanics.problem.shear_terms import ShearTerms
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import (
     HereditaryIntegral,
@@ -35,7 +35,7 @@ from viscontact.simulation.transient.setup import RunSetup
 class ShearStep:
     """Displacement along the surface over a step, as a function of the new tractions."""
 
-    terms: tuple[ShearTerm, ...]
+    shear: ShearTerms
     responses: tuple[HereditaryResponse, ...]
     before: tuple[Floats, ...]  # hereditary integrals of the tractions before [-], (2, nx, ny)
     _pasts: dict[Region, Floats] = field(default_factory=dict)
@@ -43,15 +43,22 @@ class ShearStep:
     @property
     def compliance(self) -> float:
         """Contact compliance of the new tractions [1/Pa]."""
-        pairs = zip(self.terms, self.responses, strict=True)
+        pairs = zip(self.shear.terms, self.responses, strict=True)
         return sum(term.direct * response.compliance for term, response in pairs)
 
     @property
     def kappa(self) -> float:
         """ν/(1 - ν) of the surface under the new tractions [-]."""
-        pairs = zip(self.terms, self.responses, strict=True)
+        pairs = zip(self.shear.terms, self.responses, strict=True)
         weighted = sum(term.poisson * response.compliance for term, response in pairs)
         return weighted / self.compliance
+
+    @property
+    def layers(self) -> tuple[float, ...]:
+        """Weights of the parts of layers under the new tractions, over the compliance [-]."""
+        pairs = zip(self.shear.terms, self.responses, strict=True)
+        own = [response.compliance for term, response in pairs if term.layers is not None]
+        return tuple(each / self.compliance for each in own)
 
     def past(self, domain: ShearDomain, region: Region) -> Floats:
         """Displacement of a region in the step by earlier tractions [m], (2, nx, ny)."""
@@ -62,10 +69,12 @@ class ShearStep:
     def _past(self, domain: ShearDomain, region: Region) -> Floats:
         cut, parts = region.cut, domain.parts(region)
         found = np.zeros((2, *region.shape))
-        for term, response, before in zip(self.terms, self.responses, self.before, strict=True):
+        for weights, response, before in zip(
+            self.shear.weights, self.responses, self.before, strict=True
+        ):
             change = response.history[:, *cut] - before[:, *cut]
             if change.any():
-                found += parts.sum_of(term.direct, term.poisson).apply(change)
+                found += parts.sum_of(*weights).apply(change)
         return found
 
     def of(self, traction: Floats) -> tuple[Floats, ...]:
@@ -77,7 +86,7 @@ class ShearHistory:
     """Hereditary integrals of the tractions over the whole grid, one for each term."""
 
     def __init__(self, run: RunSetup) -> None:
-        self._terms = shear_terms(run.problem.bodies, run.problem.clocks)
+        self._shear = run.problem.shear
         plans = run.shear_plans
         laws = tuple(plan.clocked_compliance for plan in plans) if len(plans) > 1 else ()
         shape = (2, *run.grid.shape)
@@ -87,7 +96,7 @@ class ShearHistory:
     def respond(self, step: TimeStep) -> ShearStep:
         """Response to a step."""
         responses = tuple(response_to(step, integral) for integral in self._integrals)
-        return ShearStep(self._terms, responses, self._before)
+        return ShearStep(self._shear, responses, self._before)
 
     def loss(
         self, traction: Floats, domain: ShearDomain, region: Region, time: float
@@ -96,9 +105,9 @@ class ShearHistory:
         if not all(isinstance(each, InternalVariables) for each in self._integrals):
             return math.nan, math.nan
         heat = power = 0.0
-        for term, integral in zip(self._terms, self._integrals, strict=True):
+        for weights, integral in zip(self._shear.weights, self._integrals, strict=True):
             assert isinstance(integral, InternalVariables)
-            operator = domain.parts(region).sum_of(term.direct, term.poisson)
+            operator = domain.parts(region).sum_of(*weights)
 
             def paired(field: Floats, operator: PairFilter = operator) -> Floats:
                 here = field[:, *region.cut]

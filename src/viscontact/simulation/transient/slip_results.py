@@ -19,12 +19,13 @@ TOUCHING = 1e-6
 
 
 def slip_scalars(
-    grid: Grid, duration: float, before: SlipState, after: SlipState, step: StepSlip
+    run: RunSetup, duration: float, before: SlipState, after: SlipState, step: StepSlip
 ) -> dict[str, float]:
     """Scalars at the end of a step of a duration [s]."""
     # Without a datum displacements are not known.
-    motion = after.motion if grid.has_datum else np.full(3, math.nan)
-    stiffness = _stiffness(before, after) if grid.has_datum else (math.nan, math.nan)
+    grid, has_datum = run.grid, run.problem.has_datum(run.grid)
+    motion = after.motion if has_datum else np.full(3, math.nan)
+    stiffness = _stiffness(before, after) if has_datum else (math.nan, math.nan)
     sticks, touches = np.count_nonzero(step.state == 1), np.count_nonzero(step.state)
     lost = after.heat - before.heat
     return {

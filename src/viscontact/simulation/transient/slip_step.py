@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, SlidingError
 from viscontact.bodies.loads.tangential import TangentialPoint
-from viscontact.mechanics.contact.friction.entry import entry_compliance
+from viscontact.mechanics.contact.friction.entry import OfLayers, entry_compliance
 from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import SlipProblem, SlipSolution
@@ -19,6 +19,9 @@ from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearStep
 from viscontact.simulation.transient.slip_state import SlipState
 from viscontact.units.formatting import format_quantity
+
+#: Waves that tell how layers answer to a growth of the contact are as long as that.
+WAVE = 2 * np.pi
 
 #: Least displacement that errors are relative to, over friction times that under pressure [-].
 LEAST_SHIFT = 0.01
@@ -92,8 +95,8 @@ def solved_on(
     tolerance: float,
 ) -> SlipSolution:
     """Tractions of a step on a region, from a guess on the whole grid."""
-    problem = _slip_problem(run, region, step)
-    block = domain.block(region, step.response.kappa)
+    problem = _slip_problem(run, domain, region, step)
+    block = domain.block(region, step.response.kappa, step.response.layers)
     traction = start.traction[:, *region.cut]
     found = solve_slip(problem, block, traction, tolerance=tolerance, motion=start.motion)
     if not found.converged:
@@ -111,13 +114,16 @@ def refuse_force_apart(step: SlipStep) -> None:
         )
 
 
-def _slip_problem(run: RunSetup, region: Region, step: SlipStep) -> SlipProblem:
+def _slip_problem(
+    run: RunSetup, domain: ShearDomain, region: Region, step: SlipStep
+) -> SlipProblem:
     contact, before = step.contact, step.before.contact
     # Cells that a body rolls on to enter at its leading edge, not all around.
     rolls = not run.problem.motion.stands and before.cells > 0
     entry = entry_compliance(
         *(contact, before, run.grid.cell_size, step.response.kappa),
         plane=rolls or not run.grid.has_datum,
+        layers=_of_layers(run, domain, step.response),
     )
     gripping = contact.gripping[region.cut]
     return SlipProblem(
@@ -129,6 +135,22 @@ def _slip_problem(run: RunSetup, region: Region, step: SlipStep) -> SlipProblem:
         step.constraints,
         LEAST_SHIFT * step.coefficient * contact.displacement,
     )
+
+
+def _of_layers(run: RunSetup, domain: ShearDomain, response: ShearStep) -> OfLayers | None:
+    """Compliance of layers along the surface over that into it, and κ, over lengths of growth."""
+    if not response.layers:
+        return None
+    kappa, normal = response.kappa, run.problem.surface.response_at(0.0)
+    in_plane = domain.in_plane(kappa, response.layers)
+
+    def factors(growth: Floats) -> tuple[Floats, Floats]:
+        q = WAVE / np.maximum(growth, WAVE / domain.shortest_wave)
+        along, across = in_plane(q)
+        into = normal.ratio(q) / normal.short_waves
+        return along / into, across / along - 1
+
+    return factors
 
 
 def _failure(step: SlipStep, found: SlipSolution, shift: RigidShift) -> ConvergenceError:

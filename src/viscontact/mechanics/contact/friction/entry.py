@@ -21,10 +21,15 @@ K. L. Johnson, Contact Mechanics, Cambridge (1985), eqs. 3.42a, 3.91a and 3.91b,
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
+
+#: Of layers over lengths of growth [m]: compliance along the surface over that into it, and κ.
+OfLayers = Callable[[Floats], tuple[Floats, Floats]]
 
 #: Contact radii up to which a cell is near the edge.
 NEAR = 1.001
@@ -37,9 +42,10 @@ def entry_compliance(
     contact: NormalContact,
     before: NormalContact,
     cell_size: tuple[float, float],
-    kappa: float,
+    kappa: float | Floats,
     *,
     plane: bool = False,
+    layers: OfLayers | None = None,
 ) -> Floats:
     """Entries xx, xy and yy of C gap/p in cells that enter [m/Pa], shape (3, nx, ny).
 
@@ -50,9 +56,15 @@ def entry_compliance(
     if not enters.any():
         return found
     compliance = np.maximum(gap[enters] / contact.pressure[enters], 0.0)
-    along, across = np.ones(compliance.size), np.full(compliance.size, 1 + kappa)
-    if not plane:
-        along, across = _ratios(_radii(enters, before.cells, gap), kappa)
+    radii = _radii(enters, before.cells, gap, plane=plane)
+    if layers is not None:
+        size = _size(before if before.cells else contact, cell_size, plane=plane)
+        ratio, kappa = layers(size * np.where(np.isinf(radii), 1.0, radii - 1))
+        compliance *= ratio
+    if plane:
+        along, across = np.ones(compliance.size), 1 + kappa * np.ones(compliance.size)
+    else:
+        along, across = _ratios(radii, kappa)
     x, y = _edge_normal(gap, enters, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
     i, j = np.nonzero(enters)
@@ -60,7 +72,14 @@ def entry_compliance(
     return found
 
 
-def _radii(enters: Bools, held: int, gap: Floats) -> Floats:
+def _size(contact: NormalContact, cell_size: tuple[float, float], *, plane: bool) -> float:
+    """Radius of a round contact, half width of a line [m]."""
+    if plane:
+        return contact.cells * min(cell_size) / 2
+    return float(np.sqrt(contact.cells * np.prod(cell_size) / np.pi))
+
+
+def _radii(enters: Bools, held: int, gap: Floats, *, plane: bool) -> Floats:
     """Distance of cells that enter, in the radii of a round contact before; inf without one."""
     # Cells enter in the order of their gaps: the area inside is known when each does. Those of one
     # gap, as mirror images, enter together.
@@ -71,15 +90,18 @@ def _radii(enters: Bools, held: int, gap: Floats) -> Floats:
     mean = np.bincount(group, np.arange(order.size)) / np.bincount(group)
     area = np.empty(order.size)
     area[order] = held + mean[group] + 0.5
-    return np.sqrt(area / held) if held else np.full(order.size, np.inf)
+    if not held:
+        return np.full(order.size, np.inf)
+    return area / held if plane else np.sqrt(area / held)
 
 
-def _ratios(radii: Floats, kappa: float) -> tuple[Floats, Floats]:
+def _ratios(radii: Floats, kappa: float | Floats) -> tuple[Floats, Floats]:
     """C along the normal of the edge and across it, at distances in contact radii."""
+    kappa = kappa * np.ones(radii.size)
     along = np.where(np.isinf(radii), 1 + kappa / 4, 1.0)
     across = np.where(np.isinf(radii), 1 + 3 * kappa / 4, 1 + kappa)
     far = (radii > NEAR) & np.isfinite(radii)
-    rho = radii[far]
+    rho, kappa = radii[far], kappa[far]
     angle, root = np.arcsin(1 / rho), np.sqrt(rho**2 - 1)
     a = (2 - rho**2) * angle + root
     b = rho**2 * angle + (2 - rho**2) * root / rho**2

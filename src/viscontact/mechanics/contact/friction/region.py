@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Numbers
+from viscontact.backend.arrays import Bools, Floats, Numbers
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.problem import ShearBlock
@@ -18,12 +19,15 @@ from viscontact.mechanics.halfspace.halved_shear import (
     halved_shear_convolution,
     halved_shear_preconditioner,
 )
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
+from viscontact.mechanics.halfspace.layered_shear_influence import shear_correction
 from viscontact.mechanics.halfspace.mirrored_shear import (
     Evenness,
     mirrored_shear_convolution,
     mirrored_shear_preconditioner,
 )
 from viscontact.mechanics.halfspace.shear_filter import (
+    InPlane,
     PairFilter,
     Parts,
     periodic_shear_convolution,
@@ -35,6 +39,9 @@ from viscontact.mechanics.halfspace.shear_influence import ShearTables, shear_ta
 #: Cells around a contact, and numbers of cells that extents are a multiple of, so that a contact
 #: that grows slowly keeps its region.
 MARGIN, MULTIPLE = 1, 8
+
+#: Wave numbers between which the preconditioner of layers is interpolated.
+TABLED_WAVES = 100
 
 #: Growth of a region for which coefficients are computed in advance.
 GROWTH = 1.25
@@ -110,14 +117,16 @@ class ShearDomain:
         grid: Grid,
         transforms: Transforms,
         symmetry: ShearSymmetry | None = None,
+        layers: Sequence[LayeredShear] = (),
         *,
         shapes: int = 1,
     ) -> None:
         self._shapes = shapes  # of regions whose parts are kept
         self.grid, self._transforms, self._symmetry = grid, transforms, symmetry
+        self._layers = tuple(layers)
         self._parts: dict[tuple[int, int], Parts] = {}
         self._table: ShearTables | None = None
-        self._blocks: dict[tuple[tuple[int, int], float], ShearBlock] = {}
+        self._blocks: dict[tuple[Any, ...], ShearBlock] = {}
         self._axis = 0.0, 0.0  # of rotations [m]
 
     def move_axis(self, position: tuple[float, float]) -> None:
@@ -180,21 +189,46 @@ class ShearDomain:
             self._parts = {region.shape: self._made(region.shape), **dict(latest)}
         return self._parts[region.shape]
 
-    def block(self, region: Region, kappa: float) -> ShearBlock:
-        """Operators on a region, of the response K + κ (its second part)."""
-        key = region.shape, kappa
+    def block(self, region: Region, kappa: float, layers: tuple[float, ...] = ()) -> ShearBlock:
+        """Operators on a region, of the response K + κ (its second part) + that of layers."""
+        key = region.shape, kappa, layers
         if key not in self._blocks:
             parts, cell_size = self.parts(region), self.grid.cell_size
             self._blocks = {
                 key: ShearBlock(
-                    parts.sum_of(1.0, kappa),
-                    parts.sum_of(1.0, kappa, single=True),
-                    self._preconditioner(region.shape, kappa),
+                    parts.sum_of(1.0, kappa, layers),
+                    parts.sum_of(1.0, kappa, layers, single=True),
+                    self._preconditioner(region.shape, kappa, layers),
                     self.shift(region),
                     max(cell_size) if min(self.grid.shape) > 1 else min(cell_size),
                 )
             }
         return replace(self._blocks[key], shift=self.shift(region))
+
+    def in_plane(self, kappa: float, layers: tuple[float, ...]) -> InPlane:
+        """Ratios of waves along and across their wave vector, interpolated.
+
+        Longer waves than that of twice the grid count as that one, and shorter ones than a cell.
+        """
+        q = np.geomspace(np.pi / max(self.grid.size), self.shortest_wave, TABLED_WAVES)
+        along, across = np.ones(q.size), np.full(q.size, 1 + kappa)
+        for weight, response in zip(layers, self._layers, strict=True):
+            found, short = response.ratios(q), response.short_waves
+            along += weight * (found.along - short.along)
+            across += weight * (found.across - short.across)
+        logarithm = np.log(q)
+
+        def ratios(wave_number: Floats) -> tuple[Floats, Floats]:
+            place = np.log(wave_number)
+            return np.interp(place, logarithm, along), np.interp(place, logarithm, across)
+
+        return ratios
+
+    @property
+    def shortest_wave(self) -> float:
+        """Largest wave number of waves on the grid [1/m]."""
+        cells = zip(self.grid.cell_size, self.grid.shape, strict=True)
+        return 2 * np.pi / min(edge for edge, count in cells if count > 1)
 
     def shift(self, region: Region) -> RigidShift:
         """Rigid motions over a region, about the axis."""
@@ -206,8 +240,12 @@ class ShearDomain:
         images = 2 ** sum(self._symmetry.mirrored)
         return RigidShift(x, y, images * self.grid.cell_area, self._symmetry.modes)
 
-    def _preconditioner(self, shape: tuple[int, int], kappa: float) -> PairFilter:
+    def _preconditioner(
+        self, shape: tuple[int, int], kappa: float, layers: tuple[float, ...]
+    ) -> PairFilter:
         options: Any = {"transforms": self._transforms}
+        if layers:
+            options |= {"layers": self.in_plane(kappa, layers)}
         if self._symmetry is None:
             return shear_preconditioner(shape, self.grid.cell_size, kappa, **options)
         even, halved = self._symmetry.even, self._symmetry.halved
@@ -221,7 +259,7 @@ class ShearDomain:
         if self._symmetry is not None:
             shape = self._symmetry.whole(shape)
         if all(grid.periodic):
-            return periodic_shear_convolution(shape, grid.cell_size, **options)
+            return periodic_shear_convolution(shape, grid.cell_size, self._layers, **options)
         repeats = any(grid.periodic)
         tables = self._periodic_tables.within(shape) if repeats else self._table_for(shape)
         periodic = grid.periodic[0], grid.periodic[1]
@@ -234,7 +272,11 @@ class ShearDomain:
 
     @cached_property
     def _periodic_tables(self) -> ShearTables:
-        return shear_tables(self.grid)
+        return self._tables_on(self.grid)
+
+    def _tables_on(self, grid: Grid) -> ShearTables:
+        corrections = tuple(shear_correction(grid, each) for each in self._layers)
+        return replace(shear_tables(grid), corrections=corrections)
 
     def _table_for(self, shape: tuple[int, int]) -> ShearTables:
         """Coefficients of a block, out of those of a larger one that it may grow to."""
@@ -246,7 +288,7 @@ class ShearDomain:
         larger = counts[0], counts[1]
         if self._table is None or self._table.direct.shape != larger:
             (nx, ny), (dx, dy) = larger, self.grid.cell_size
-            self._table = shear_tables(Grid(larger, (nx * dx, ny * dy)))
+            self._table = self._tables_on(Grid(larger, (nx * dx, ny * dy)))
         return self._table.within(shape)
 
 
