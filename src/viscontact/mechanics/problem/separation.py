@@ -108,6 +108,12 @@ def separate(body: Layered, span: Span = ANY_TIMES) -> Separation:
 def with_laws(found: Separation, body: Layered, series: Layered, deviation: float) -> Separation:
     """Terms with the laws of a body itself, in whose place series were; ValueError if far off."""
     if series is body:
+        if not found.error <= WORST:
+            raise ValueError(
+                "material: no short sum of terms comes close to the creep of these layers, some of "
+                "which flow by far more than others; give them fewer retardation times, or a "
+                "modulus that is left after all creep in place of a fluid"
+            )
         return found
     # Creep functions of materials are those of the laws themselves, as the responses depend little
     # on the law.
