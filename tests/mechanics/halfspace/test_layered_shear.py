@@ -4,6 +4,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+from closeness import close_to
+from returned import some
 from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
 from viscontact.mechanics.halfspace.layered_shear import (
     LayeredShear,
@@ -32,14 +34,15 @@ def test_layers_of_one_material_respond_as_its_half_space(poisson_ratio):
         (ElasticLayer(1.0, 1.0, poisson_ratio), ElasticLayer(0.3, 1.0, poisson_ratio)),
         ElasticBase(1.0, poisson_ratio),
     )
-    for found, exact in zip(stack_ratios(body, WAVES), short_waves_of(poisson_ratio), strict=True):
-        np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-12)
+    exact = short_waves_of(poisson_ratio)
+    for found, limit in some(zip(stack_ratios(body, WAVES), exact, strict=True)):
+        np.testing.assert_allclose(found, limit, rtol=1e-12, atol=1e-12)
 
 
 def test_half_space_has_the_ratios_of_johnson():
     # Johnson (1985), eqs. 3.91: u_x of a line of traction is that of a pressure, antiplane shear
     # is 1/(1 - ν) of it, and 3.18: the coupling is (1 - 2ν)/(2 (1 - ν)).
-    assert short_waves_of(0.25) == (1.0, pytest.approx(4 / 3), pytest.approx(1 / 3))
+    assert short_waves_of(0.25) == (1.0, close_to(4 / 3), close_to(1 / 3))
 
 
 def test_antiplane_waves_of_a_layer_on_a_rigid_base_are_exact():
@@ -89,7 +92,7 @@ def test_ratios_agree_with_equilibrium_in_forty_digits(name):
     for place, wave in enumerate(WAVES):
         exact = _ratios_by_equilibrium(stack, wave)
         for kind in range(3):
-            assert found[kind][place] == pytest.approx(exact[kind], rel=1e-9, abs=1e-10)
+            assert found[kind][place] == close_to(exact[kind], rel=1e-9, abs=1e-10)
 
 
 def test_long_waves_tend_to_the_base():

@@ -73,7 +73,7 @@ def test_coefficients_are_hankel_integrals_over_the_cell(name, cell):
             (coupling.along_x - response.short_waves.coupling * own.along_x, zx),
             (coupling.along_y - response.short_waves.coupling * own.along_y, zy),
         ):
-            assert found[i, j] == pytest.approx(exact, abs=2e-10 * cell[0] * cell[1])
+            assert found[i, j] == close_to(exact, abs=2e-10 * cell[0] * cell[1])
 
 
 def _by_quadrature(response, cell, i, j):
@@ -120,10 +120,10 @@ def test_strips_are_sums_over_waves_on_a_long_period():
             for ratio in (ratios.along, ratios.across)
         ]
         # The sum is cut off at its waves: 1e-6 of the middle.
-        assert along[0, cells] == pytest.approx(exact[0], abs=2e-6)
-        assert across[0, cells] == pytest.approx(exact[1], abs=2e-6)
+        assert along[0, cells] == close_to(exact[0], abs=2e-6)
+        assert across[0, cells] == close_to(exact[1], abs=2e-6)
         inwards = float((2 / q * ratios.coupling * mean * sin).sum())
-        assert coupling[0, cells] == pytest.approx(inwards, abs=1e-7)
+        assert coupling[0, cells] == close_to(inwards, abs=1e-7)
 
 
 @pytest.mark.parametrize("thickness", [0.02, 0.1, 0.5])
@@ -192,7 +192,7 @@ def test_work_is_reciprocal(name, grid):
     pressure, traction = random.normal(size=grid.shape), random.normal(size=(2, *grid.shape))
     one, other = (maps.along(pressure) * traction).sum(), (pressure * maps.normal(traction)).sum()
     # Pressure moves the surface towards the load, tractions move it inwards ahead of them.
-    assert one == pytest.approx(other, rel=1e-12)
+    assert one == close_to(other, rel=1e-12)
 
 
 def test_a_sum_of_maps_adds_them():
