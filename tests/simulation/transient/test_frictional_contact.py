@@ -137,6 +137,12 @@ def test_layers_that_slide_are_refused():
         march(vc.step(0.1), SHAKEN["x"], [1.0], material=body)
 
 
+def test_layers_that_are_coupled_are_refused_in_motion():
+    body = vc.Layered([vc.Layer(1e-3, vc.Material(vc.Elastic(1e6), 0.3))], "rigid")
+    with pytest.raises(ValueError, match="which is not supported in the motion over layers"):
+        vc.march(**{**PRESSED, "friction": 0.3, "material": body, "motion": DRIVEN})
+
+
 def test_layers_that_repeat_along_one_axis_only_are_refused():
     body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
     grid = vc.Grid((8, 40), (1e-3, 6e-3), periodic=(True, False))

@@ -87,6 +87,8 @@ def _check_rolling(problem: Problem) -> None:
         )
     if not problem.surface.creep.is_elastic:
         refuse_coupled(problem, "in the motion of bodies that creep")
+    if any(isinstance(body, Layered) for body in problem.bodies):
+        refuse_coupled(problem, "in the motion over layers")
 
 
 def refuse_coupled(problem: Problem, where: str) -> None:
