@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from interrupted_runs import same_bits
 from viscontact.case import read_case
 from viscontact.cli import main
@@ -115,6 +116,26 @@ def test_check_show_and_export_go_by_speed(
     header = Path("out.csv").read_text(encoding="utf-8").splitlines()[0]
     assert "friction_coefficient" in header
     assert "tangential_force" not in header
+
+
+def test_show_prints_tractions_over_creepage_and_where_all_slides(
+    folder: Path, finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At 3 % some cells stick; at 10 % none does, and the force is friction times 200 N."""
+    assert main(["show", str(finished)]) == 0
+    shown = capsys.readouterr().out
+    assert "Tangential force along y per length [N/m] at a creepage of" in shown
+    with vc.open_results(finished) as ds:
+        force = ds.tangential_force_y_per_length.sel(speed=0.01, creepage=0.03)
+        assert f"{float(force):.1f} ±" in shown
+    assert [line.split()[-1] for line in shown.splitlines() if " 10 mm/s" in line] == ["-"]
+    assert main(["run", str(written(folder, ("-2 %", "10 %"))), "-q"]) == 0
+    capsys.readouterr()
+    assert main(["show", "changed"]) == 0
+    [line] = [line for line in capsys.readouterr().out.splitlines() if " 10 mm/s" in line]
+    assert line.split()[-2:] == ["10", "%"]
+    with vc.open_results("changed") as ds:
+        assert float(ds.tangential_force_y.sel(creepage=0.1).max()) == close_to(-0.5 * 200.0)
 
 
 def test_report_and_figure_show_the_traction_over_creepage(folder: Path, finished: Path) -> None:

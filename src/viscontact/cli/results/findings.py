@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import xarray as xr
 
+from viscontact.cli.results.traction_table import traction_table
 from viscontact.cli.terminal.console import TextConsole, styled
 from viscontact.cli.terminal.messages import put
 from viscontact.results.contact_spots import last_spots
 from viscontact.results.leakage.of_case import leakage_lines
 from viscontact.results.recorded_events import recorded_events
+from viscontact.results.rolling import has_creepages
 from viscontact.results.run_axis import run_axis
 from viscontact.results.verdicts import Verdict, verdicts
 
@@ -16,9 +18,11 @@ _COLOURS = {"passed": "green", "failed": "red", "undecided": "yellow"}
 
 
 def print_findings(console: TextConsole, ds: xr.Dataset) -> None:
-    """Print the spots of a contact, events, and verdicts on allowable values; those there are."""
+    """Print spots, tractions over creepage, events, and verdicts on allowable values if any."""
     if spots := last_spots(ds):
         put(spots.text)
+    if has_creepages(ds):
+        console.print(traction_table(ds), crop=False)
     for line in leakage_lines(ds):
         put(line)
     for event in recorded_events(ds):

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 def print_stored_findings(console: TextConsole, ds: StoredResult, directory: Path) -> None:
     """Print what `print_findings` prints of the result in a directory, which is open."""
     stated = (ALLOWABLE, "events", LEAKAGE)
-    if ends_in_one_spot(ds) and not any(name in ds.attrs for name in stated):
+    plain = not any(name in ds.attrs for name in stated) and "creepage" not in ds.sizes
+    if plain and ends_in_one_spot(ds):
         return
     from viscontact.cli.results.findings import print_findings
     from viscontact.results.netcdf import open_results
