@@ -42,7 +42,7 @@ ARRAYS_OF_FRICTION, FRICTION_ARRAYS_PER_TERM = 20.5, 2.0
 ARRAYS_OF_SLIP_SEARCH = 31.0
 
 #: Arrays of the coefficients and operators of each term of layers under shear, likewise.
-ARRAYS_OF_LAYERS = 16.0
+ARRAYS_OF_LAYERS = 10.0
 
 #: Arrays of the operators on the track of a creeping body that rolls.
 ARRAYS_OF_TRACK = 31.0
