@@ -18,7 +18,8 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, history_of
 from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_coarser_runs
 from viscontact.simulation.accuracy.error_bars import error_bars_from
-from viscontact.simulation.accuracy.least_bars import entry_rise, least_resistance_bar
+from viscontact.simulation.accuracy.least_bars import least_resistance_bar
+from viscontact.simulation.accuracy.least_peak_bars import entry_rise
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.simulation.transient.state_generator import march_run
 

@@ -52,8 +52,8 @@ from viscontact.simulation.accuracy.least_bars import (
     ContactKinds,
     agrees,
     least_bar,
-    least_peak_bar,
 )
+from viscontact.simulation.accuracy.least_peak_bars import least_peak_bar
 from viscontact.simulation.accuracy.refinement_levels import (
     CUMULATIVE,
     RefinementLevels,
