@@ -154,7 +154,7 @@ def halved_shear_preconditioner(
     xy = lost * half * x * y / safe**2
     if shape[other] % 2 == 0:  # the shortest waves have no sign
         xy[part_along(other, slice(-1, None))] = 0.0
-    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost)
     options |= {"axis": axis, "even": even, "single": True}
     return HalvedShearFilter(shape, shape, (xx, xy, yy), **options)
 

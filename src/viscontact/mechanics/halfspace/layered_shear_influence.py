@@ -41,8 +41,12 @@ from viscontact.mechanics.halfspace.layered_influence import (
 )
 from viscontact.mechanics.halfspace.layered_shear import LayeredShear, ShearComponent
 from viscontact.mechanics.halfspace.shear_influence import PairTables, shear_tables
-from viscontact.mechanics.halfspace.smooth_kernel import DEGREE, LOG_STEP, LONGEST_WAVE, RAY, STEP
-from viscontact.mechanics.halfspace.strip_influence import REACH, SHORTEST_WAVE
+from viscontact.mechanics.halfspace.smooth_kernel import LOG_STEP, RAY
+from viscontact.mechanics.halfspace.strip_influence import (
+    REACH,
+    odd_spline,
+    places_and_waves,
+)
 
 
 def shear_correction(grid: Grid, response: LayeredShear) -> PairTables:
@@ -124,19 +128,14 @@ def coupling_of_strip(y: Floats, width: float, response: LayeredShear) -> Floats
 @lru_cache(maxsize=32)
 def _coupling_primitive(response: LayeredShear) -> scipy.interpolate.BSpline:
     """Integral of the rest under a line load over y/length from 0, as a spline of asinh."""
-    length, count = response.length, int(np.arcsinh(REACH) / STEP) + 2
-    t = STEP * np.arange(count)
-    y = np.sinh(t)
-    log_longest = np.log(LONGEST_WAVE / y[-1])
-    waves = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
-    q = RAY * np.exp(log_longest + LOG_STEP * np.arange(waves + 1))
+    length = response.length
+    y, q = places_and_waves()
     short, long = response.short_waves.coupling, response.long_waves.coupling
     rest = (response.ratios(q / length).coupling - short) * LOG_STEP
     arc = float(np.angle(RAY)) * (long - short)
     values = [0.0, *(float((rest * np.exp(1j * q * at)).sum().imag) + arc for at in y[1:])]
-    slopes = 2 / np.pi * np.array(values) * np.cosh(t)
-    found = scipy.interpolate.make_interp_spline(
-        np.append(-t[:0:-1], t), np.append(-slopes[:0:-1], slopes), k=DEGREE
-    ).antiderivative()
+    # Over the argument of the spline: cosh(asinh(y)) times those over y.
+    slopes = 2 / np.pi * np.array(values) * np.sqrt(1 + y**2)
+    found = odd_spline(slopes).antiderivative()
     found.c -= found(0.0)
     return found

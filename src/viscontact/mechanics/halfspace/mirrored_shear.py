@@ -137,7 +137,7 @@ def mirrored_shear_preconditioner(
     xx, yy = half * (1 - lost * (y / safe) ** 2), half * (1 - lost * (x / safe) ** 2)
     # Of waves exp(i (x + y)) it is + x y; that of products of sines or cosines changes the sign.
     xy = -lost * half * x * y / safe**2
-    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost)
     symbol = xx, xy, yy
     return MirroredShearFilter(shape, shape, symbol, even=even, single=True, **options)
 

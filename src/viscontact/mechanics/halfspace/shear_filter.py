@@ -206,7 +206,7 @@ def shear_preconditioner(
     xx = half * (1 - lost * (y / safe) ** 2)
     yy = half * (1 - lost * (x / safe) ** 2)
     xy = lost * half * _odd(x * y / safe**2, shape)
-    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost, kappa)
+    xx[0, 0] = yy[0, 0] = inverse_of_mean(half, lost)
     return ShearFilter(shape, shape, (xx, xy, yy), single=True, **options)
 
 
@@ -223,11 +223,9 @@ def inverse_waves(
     return half / along, 1 - along / across
 
 
-def inverse_of_mean(half: Floats, lost: Floats | float, kappa: float) -> float:
+def inverse_of_mean(half: Floats, lost: Floats | float) -> float:
     """Inverse of the displacement of a block's mean [1/m]."""
     # The mean of a block is a wave of about the longest length in it, not of none.
-    if isinstance(lost, float):
-        return float(min([*half[0, 1:2], *half[1:2, 0]])) / (1 + kappa)
     across = half * (1 - lost)
     return float(min([*across[0, 1:2], *across[1:2, 0]]))
 

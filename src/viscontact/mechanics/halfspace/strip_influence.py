@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 import scipy
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Complexes, Floats
 from viscontact.mechanics.halfspace.smooth_kernel import DEGREE, LOG_STEP, LONGEST_WAVE, RAY, STEP
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 
@@ -56,17 +56,31 @@ def _primitive(y: Floats, response: SurfaceResponse) -> Floats:
 @lru_cache(maxsize=32)
 def _smooth_part(response: SurfaceResponse) -> scipy.interpolate.BSpline:
     """S over the shortest length, as a spline of asinh(y/length)."""
-    length, count = response.length, int(np.arcsinh(REACH) / STEP) + 2
-    t = STEP * np.arange(count)
-    y = np.sinh(t)
-    log_longest = np.log(LONGEST_WAVE / y[-1])
-    waves = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
-    q = RAY * np.exp(log_longest + LOG_STEP * np.arange(waves + 1))
+    length = response.length
+    y, q = places_and_waves()
     excess = response.short_waves - response.long_waves
     rest = response.ratio(q / length) - response.long_waves + excess * np.expm1(-q)
     weights = rest / q * LOG_STEP
     level = np.exp(-q)
     values = np.array([float((weights * (np.exp(1j * q * at) - level)).sum().imag) for at in y])
+    return odd_spline(values)
+
+
+def places_and_waves() -> tuple[Floats, Complexes]:
+    """Places y/length of a spline from 0 on, and the wave numbers q length on a ray to sum over."""
+    y = np.sinh(_arguments())
+    log_longest = np.log(LONGEST_WAVE / y[-1])
+    waves = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
+    return y, RAY * np.exp(log_longest + LOG_STEP * np.arange(waves + 1))
+
+
+def odd_spline(values: Floats) -> scipy.interpolate.BSpline:
+    """Odd spline of asinh(y/length) through values at its places."""
+    t = _arguments()
     return scipy.interpolate.make_interp_spline(
         np.append(-t[:0:-1], t), np.append(-values[:0:-1], values), k=DEGREE
     )
+
+
+def _arguments() -> Floats:
+    return np.asarray(STEP * np.arange(int(np.arcsinh(REACH) / STEP) + 2), dtype=np.float64)

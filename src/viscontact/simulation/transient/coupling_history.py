@@ -44,10 +44,8 @@ class CouplingStep:
 
     def of_traction(self, traction: Floats) -> tuple[Floats, ...]:
         """Part of Q by the new tractions [-], (2, nx, ny)."""
-        pairs = list(zip(self.terms.terms, self.shear.responses, strict=True))
-        own = (response.compliance for term, response in pairs if term.layers is not None)
-        others = [term.coupling * each.compliance for term, each in pairs if term.layers is None]
-        weights = [sum(others), *own] if others else own
+        compliances = [np.asarray(response.compliance) for response in self.shear.responses]
+        weights = self.terms.coupled_sums(compliances)
         return tuple(np.asarray(weight * traction) for weight in weights)
 
     @property
