@@ -109,3 +109,22 @@ def same_bits(directory: str, whole: xr.Dataset) -> bool:
         return same and all(
             ds[name].values.tobytes() == whole[name].values.tobytes() for name in whole.variables
         )
+
+
+@contextmanager
+def stopped_after(monkeypatch: pytest.MonkeyPatch, states: int = 1) -> Iterator[None]:
+    """Ctrl-C as soon as so many states have been recorded, each of which is written at once."""
+    monkeypatch.setattr(recorder, "PAUSE", 0.0)
+    monkeypatch.setattr(recorder, "SHARE", 0.0)
+    found, left = recorder.Recorder._record, states
+
+    def stopped(record: recorder.Recorder, state: vc.ContactState) -> None:
+        nonlocal left
+        found(record, state)
+        left -= 1
+        if not left:
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(recorder.Recorder, "_record", stopped)
+        yield

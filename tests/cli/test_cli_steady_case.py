@@ -14,10 +14,9 @@ import xarray as xr
 import viscontact as vc
 from campaigns import tried
 from closeness import close_to
-from interrupted_runs import same_bits
+from interrupted_runs import same_bits, stopped_after
 from killed_run import lines_of
 from viscontact.cli import main
-from viscontact.runs.directory import recorder
 
 SPEEDS = [0.01, 0.1, 1.0]
 CASE = """\
@@ -80,20 +79,7 @@ def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     assert main([*words, "-o", "whole"]) == 0
     with xr.open_dataset("whole/result.nc") as ds:
         whole = ds.load()
-    monkeypatch.setattr(recorder, "PAUSE", 0.0)
-    monkeypatch.setattr(recorder, "SHARE", 0.0)
-    found = recorder.Recorder._record
-    left = 2
-
-    def stopped(record: recorder.Recorder, state: vc.ContactState) -> None:
-        nonlocal left
-        found(record, state)
-        left -= 1
-        if not left:
-            raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(recorder.Recorder, "_record", stopped)
+    with stopped_after(monkeypatch, 2):
         assert main(words) == 130
     assert "case keeps 2 of 3 speeds" in capsys.readouterr().err
     with vc.open_results("case") as part:

@@ -7,10 +7,9 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from interrupted_runs import same_bits
+from interrupted_runs import same_bits, stopped_after
 from viscontact.case import read_case
 from viscontact.cli import main
-from viscontact.runs.directory import recorder
 
 CASE = """\
 title: Drive roller
@@ -84,16 +83,7 @@ def test_saved_result_is_opened_as_it_was(finished: Path, tmp_path: Path) -> Non
 def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     folder: Path, finished: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recorder, "PAUSE", 0.0)
-    monkeypatch.setattr(recorder, "SHARE", 0.0)
-    found = recorder.Recorder._record
-
-    def stopped(record: recorder.Recorder, state: vc.ContactState) -> None:
-        found(record, state)
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(recorder.Recorder, "_record", stopped)
+    with stopped_after(monkeypatch):
         assert main(["run", "case.yaml", "-q"]) == 130
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0
     with vc.open_results(finished) as whole:
