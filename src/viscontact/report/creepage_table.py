@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-import numpy as np
 import xarray as xr
 
 from viscontact.drawing.svg.html import element
@@ -14,6 +13,7 @@ from viscontact.report.page_elements import remark, stacked_table
 from viscontact.results.formatting import format_with_error
 from viscontact.results.rolling import has_creepages, tabled_names
 from viscontact.results.run_axis import SPEED
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.variables import CURVES, error_name
 
 #: Rows of the table, about: of more results some of the speeds are left out.
@@ -27,7 +27,7 @@ def creepage_table(ds: xr.Dataset) -> Iterator[Element]:
     names, speeds = tabled_names(ds), SPEED.values(ds)
     ordered = ds.sortby("creepage")
     most = max(MOST_ROWS // ordered.sizes["creepage"], 2)
-    shown = np.unique(np.rint(np.linspace(0, speeds.size - 1, most)).astype(int))
+    shown = shown_rows(speeds.size, most)
     heads = ["speed", "creepage", *(CURVES[name].label.lower() for name in names)]
     rows = []
     for at in shown.tolist():

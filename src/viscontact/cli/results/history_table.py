@@ -20,6 +20,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.run_axis import run_axis
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
 from viscontact.results.stored_result import StoredResult
 from viscontact.results.variables import AXES, SCALARS, Place, shown_in, shown_name
@@ -46,7 +47,7 @@ def print_history(
     console = TextConsole()
     axis = run_axis(ds)
     count = ds.sizes[axis.name]
-    rows = np.arange(count) if everything else _spread(count)
+    rows = np.arange(count) if everything else shown_rows(count, _ROWS)
     shown = _shown_scalars(ds)
     columns = _columns(ds, [axis.name, *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
@@ -96,10 +97,6 @@ def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[st
             else f"{legend}; --errors shows each one"
         )
     yield from accuracy_lines(ds, shown)
-
-
-def _spread(count: int) -> Integers:
-    return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
 
 
 def _loss_error(ds: StoredResult) -> str:

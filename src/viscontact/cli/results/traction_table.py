@@ -9,10 +9,10 @@ import xarray as xr
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from viscontact.backend.arrays import Integers
 from viscontact.results.formatting import format_with_error_in
 from viscontact.results.rolling import tabled_names
 from viscontact.results.run_axis import SPEED
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.variables import CURVES, error_name
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
@@ -23,7 +23,7 @@ MOST_CREEPAGES, MOST_SPEEDS = 4, 8
 def traction_table(ds: xr.Dataset) -> Table:
     """Tangential force at some of the creepages, and the least one at which the body slides."""
     name, ordered = tabled_names(ds)[0], ds.sortby(["speed", "creepage"])
-    creepages = _spread(ordered.sizes["creepage"], MOST_CREEPAGES)
+    creepages = shown_rows(ordered.sizes["creepage"], MOST_CREEPAGES)
     unit = readable_unit(CURVES[name].units, float(np.nanmax(np.abs(ds[name].values))))
     title = f"{unit.label(CURVES[name].label)} at a creepage of"
     table = Table(box=SIMPLE_HEAD, show_edge=False, title=title, title_justify="left")
@@ -31,7 +31,7 @@ def traction_table(ds: xr.Dataset) -> Table:
     for creepage in ordered["creepage"].values[creepages].tolist():
         table.add_column(_percent(creepage), justify="right")
     table.add_column("slides from", justify="right")
-    for speed in _spread(ordered.sizes["speed"], MOST_SPEEDS).tolist():
+    for speed in shown_rows(ordered.sizes["speed"], MOST_SPEEDS).tolist():
         here = ordered.isel(speed=speed)
         forces = [_force(here.isel(creepage=at), name, unit) for at in creepages.tolist()]
         table.add_row(SPEED.place(float(here["speed"])), *forces, _sliding(here))
@@ -52,7 +52,3 @@ def _sliding(here: xr.Dataset) -> str:
 
 def _percent(creepage: float) -> str:
     return f"{100 * creepage:.4g} %"
-
-
-def _spread(count: int, most: int) -> Integers:
-    return np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))

@@ -19,6 +19,7 @@ from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_around
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.snapshots import Snapshot, field_times
 from viscontact.results.variables import MESH_DEPENDENT
 from viscontact.units.formatting import readable_unit
@@ -210,7 +211,7 @@ def maps_at(results: Runs, times: ArrayLike | None, figure: str, *, count: int =
 def maps_over(run: xr.Dataset) -> Maps:
     """Maps at instants over a whole run, at most `MOST_INSTANTS`."""
     stored = field_times(run, "map")
-    chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
+    chosen = shown_rows(stored.size, MOST_INSTANTS)
     return maps_at(run, stored[chosen], "map")
 
 

@@ -14,6 +14,7 @@ from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import FAINT, FIRST, PERCENT, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_case import case_of
 from viscontact.results.rolling import TractionCurves, traction_curves
+from viscontact.results.shown_rows import shown_rows
 from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Most speeds that are drawn, digits of a speed, and points of an exact curve.
@@ -28,7 +29,7 @@ def traction_creepage_panel(run: xr.Dataset, look: Look = LIGHT) -> Panel:
     """Panel of the traction over friction times force at each creepage, a curve a speed."""
     found = traction_curves(run)
     creepages = found.creepages
-    chosen = np.unique(np.rint(np.linspace(0, found.speeds.size - 1, _MOST)).astype(int))
+    chosen = shown_rows(found.speeds.size, _MOST)
     places = np.linspace(0.0, 1.0, chosen.size).tolist() if chosen.size > 1 else [0.0]
     curves = tuple(
         Curve(

@@ -1,4 +1,4 @@
-"""What all kinds of given pressure have: means over cells at a time."""
+"""Given pressure of any kind: means over cells at a time."""
 
 from __future__ import annotations
 
