@@ -55,6 +55,7 @@ USES = {
     "law": (["zener"], INDENTATIONS),
     "reference-time": (["1 s"], INDENTATIONS),
     "reach": (["0.5"], CURVES),
+    "adhesion": ([], CURVES),
     "spring-constant": (["0.1 N/m"], CURVES),
     "sensitivity": (["50 nm/V"], {"voltage"}),
 }

@@ -5,8 +5,9 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from identification.adhesive_curves import RADIUS, drawn
+from identification.adhesive_curves import RADIUS, curve_of, drawn
 from viscontact.identification.adhesive_branch import adhesive_branch
+from viscontact.identification.adhesive_problem import AdhesiveRows
 from viscontact.reference import maugis_dugdale
 
 TIP = vc.Sphere(RADIUS)
@@ -54,11 +55,17 @@ def test_fit_of_an_exact_curve_finds_what_it_was_made_of(tabor):
         assert (high, fit.intervals["range"][0]) == (np.inf, 0.0)
         assert low > 2
         assert fit.adhesion.range is None
+        row = fit.in_numbers("a")
+        assert np.isnan([row.values["range"], row.values["tabor_number"]]).all()
+        assert row.intervals["tabor_number"] == (low, high)
+        said = repr(vc.identification.CurveFits((row,)))
+        assert "range: not determined by any curve" in said
     else:
         assert fit.tells_range
         assert fit.parameters["range"] == close_to(truth["range"], rel=0.02)
         assert fit.adhesion.range == fit.parameters["range"]
         assert fit.parameters["tabor_number"] == close_to(tabor, rel=0.02)
+        assert fit.in_numbers("a").values["range"] == fit.parameters["range"]
 
 
 def counted(tabor, seeds):
@@ -81,12 +88,26 @@ def test_intervals_hold_the_truth_under_noise(tabor):
     assert min(held.values()) >= 8, held
 
 
+def test_shallow_jump_of_a_soft_cantilever_ends_the_rows_without_force():
+    """It pulls by less than a sixth of the pull-off, and the force then rises through zero."""
+    sphere = vc.reference.jkr_sphere(RADIUS, 1 / 2e6, 0.02)
+    curve = curve_of(sphere, 0.5, 0.01, np.random.default_rng(0), rows=400)
+    rows, turn = AdhesiveRows.of(curve), curve.loading_rows
+    touching = 1e-6  # position of the first touch, at which the tip jumps
+    step = float(np.diff(curve.position).max())
+    last = curve.position[:turn][rows.free[:turn]].max()
+    assert touching - 4 * step < last < touching
+
+
 def test_curve_without_a_pull_off_is_refused():
     z = np.concatenate([np.linspace(0, 2e-6, 200), np.linspace(2e-6, 0, 200)])
     bent = 1e-2 * np.maximum(z - 1e-6, 0.0) + 1e-10 * np.random.default_rng(0).standard_normal(400)
     curve = vc.ForceCurve(np.arange(400.0), z, bent, 0.1)
     with pytest.raises(ValueError, match="fit_adhesion: no pull-off is found"):
         vc.fit_adhesion(curve, TIP, poisson_ratio=0.5)
+    approach = vc.ForceCurve(np.arange(200.0), z[:200], bent[:200], 0.1)
+    with pytest.raises(ValueError, match="fit_adhesion: no pull-off is found"):
+        vc.fit_adhesion(approach, TIP, poisson_ratio=0.5)
 
 
 def test_cone_is_refused_and_named():

@@ -13,7 +13,13 @@ import pytest
 import viscontact as vc
 from closeness import close_to
 from viscontact.cli import main
-from viscontact.identification import IndentationRecord, fit_each, fit_indentation
+from viscontact.identification import (
+    CurveFits,
+    FittedCurve,
+    IndentationRecord,
+    fit_each,
+    fit_indentation,
+)
 from viscontact.plot import curve_fits
 
 RADIUS = 5e-6
@@ -69,9 +75,12 @@ def test_reference_time_of_a_law_without_one_is_refused() -> None:
 
 @pytest.mark.parametrize("factor", [1.0, 3.0, 1e3])
 def test_histograms_hold_every_curve(factor: float) -> None:
-    moduli = np.geomspace(1e3, 1e3 * factor, 30)
-    fits = fit_each(elastic, {f"{k}": hertz(each) for k, each in enumerate(moduli)})
-    axes = curve_fits(fits).axes[0]
+    units = {"shear_modulus": "Pa"}
+    curves = (
+        FittedCurve(f"{modulus:g}", {"shear_modulus": modulus}, {}, units)
+        for modulus in np.geomspace(1e3, 1e3 * factor, 30).tolist()
+    )
+    axes = curve_fits(CurveFits(tuple(curves))).axes[0]
     assert sum(bar.get_height() for bar in axes.patches if bar.get_height() >= 1) >= 29
     assert (axes.get_xscale() == "log") == (factor > 10)
 

@@ -8,6 +8,10 @@ from dataclasses import dataclass, field
 from viscontact.bodies.cohesive_laws import LAWS, CohesiveLaw
 from viscontact.units.numbers import check_fields
 
+#: Tabor numbers up to which the limit of long ranges (DMT) holds within some percents, and from
+#: which that of short ones (JKR) does [-].
+DMT_BELOW, JKR_ABOVE = 0.1, 5.0
+
 
 @dataclass(frozen=True)
 class Adhesion:
@@ -67,3 +71,12 @@ class Adhesion:
                 raise ValueError("Adhesion: range or strength must be known")
             length = self.work / self.strength
         return LAWS[self.law](self.work, length)
+
+
+def regime(tabor_number: float) -> str:
+    """Return the limit that applies to a sphere of a Tabor number [-], in words."""
+    if tabor_number <= DMT_BELOW:
+        return f"long range, DMT's limit applies (below {DMT_BELOW:g})"
+    if tabor_number >= JKR_ABOVE:
+        return f"short range, JKR's limit applies (above {JKR_ABOVE:g})"
+    return f"between DMT's limit (below {DMT_BELOW:g}) and JKR's (above {JKR_ABOVE:g})"

@@ -4,10 +4,12 @@ from viscontact.bodies.series_fits.fit import Fit
 from viscontact.bodies.series_fits.found_shift import FoundShift
 from viscontact.bodies.series_fits.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.bodies.series_fits.quality import Misfit, Reason
-from viscontact.identification.adhesion_fit import AdhesionFit, fit_adhesion
+from viscontact.identification.adhesion import fit_adhesion
+from viscontact.identification.adhesion_fit import AdhesionFit
 from viscontact.identification.contact_point import ContactPoint, find_contact
-from viscontact.identification.curve_batch import CurveFits, FittedCurve, fit_each
+from viscontact.identification.curve_batch import CurveFits, fit_each
 from viscontact.identification.fitted_contact import FittedContact
+from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
@@ -19,7 +21,7 @@ from viscontact.identification.master_curve import (
     fit_master_curve,
 )
 from viscontact.identification.record import Cantilever, IndentationRecord
-from viscontact.identification.section import material_section
+from viscontact.identification.section import adhesive_sections, material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
 
@@ -41,6 +43,7 @@ __all__ = [
     "Reason",
     "ShiftFit",
     "ShiftUncertainty",
+    "adhesive_sections",
     "build_master_curve",
     "find_contact",
     "fit_adhesion",

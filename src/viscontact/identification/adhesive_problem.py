@@ -15,11 +15,22 @@ from viscontact.identification.force_curve import ForceCurve
 _FIRST_FREE, _LEAST_FREE = 0.1, 5
 #: Parts of the largest pull: less is free of force; more is held on the branch while withdrawn.
 _FREE, _HELD = 0.15, 0.6
+#: Standard deviations of noise that two rows one after the other do not reach: a jump into contact
+#: may be shallow.
+_NOISE = 6.0
+#: Part of the largest pull below which a force is never told from none.
+_LEAST_FORCE = 1e-3
 #: Rows beside a jump that count on neither side of it.
 _BESIDE = 2
 #: Forces [pi w R] and approaches [(pi² w² R/K²)^(1/3)] of Johnson, Kendall and Roberts at
 #: pull-off and without force.
 _JKR_PULL, _JKR_WAY, _JKR_FREE = 1.5, (6 ** (2 / 3) + 1.5 ** (2 / 3)) / 3, 6 ** (2 / 3) / 3
+
+_NO_PULL_OFF = (
+    "fit_adhesion: no pull-off is found; the curve must begin before contact, and its retraction "
+    "must pull with several times the noise, with a negative deflection where the cantilever is "
+    "pulled to the sample"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,24 +46,24 @@ class AdhesiveRows:
     def of(cls, curve: ForceCurve) -> AdhesiveRows:
         """Tell rows apart by their force; ValueError if none of a kind is found."""
         turn, count = curve.loading_rows, curve.times.size
+        if turn == count:
+            raise ValueError(_NO_PULL_OFF)
         first = max(int(_FIRST_FREE * turn), _LEAST_FREE)
-        force = _without_line(curve, np.arange(count) < first)
-        for _ in range(2):
+        free = np.arange(count) < first
+        force = _without_line(curve, free)
+        for is_last in (False, False, True):
             pull, lowest = (
                 -float(force[turn:].min(initial=0.0)),
                 turn + int(np.argmin(force[turn:])),
             )
-            begin = int(np.argmax(np.abs(force) > _FREE * pull)) - _BESIDE
+            noise = max(_NOISE * _noise(force[free]), _LEAST_FORCE * pull)
+            begin = _begin(force, min(_FREE * pull, noise) if is_last else _FREE * pull) - _BESIDE
             free = np.arange(count) < begin
             if begin < _LEAST_FREE or not pull > 0:
                 break
             force = _without_line(curve, free)
         if begin < _LEAST_FREE or not pull > _LEAST_FREE * float(force[free].std()):
-            raise ValueError(
-                "fit_adhesion: no pull-off is found; the curve must begin before contact, and its "
-                "retraction must pull with several times the noise, with a negative deflection "
-                "where the cantilever is pulled to the sample"
-            )
+            raise ValueError(_NO_PULL_OFF)
         held_in = begin + int(np.argmax(np.abs(force[begin:]) > _HELD * pull)) + _BESIDE
         beyond = np.flatnonzero(force[lowest:] < -_HELD * pull)
         held_out = lowest + int(beyond[-1]) + 1
@@ -95,6 +106,17 @@ def _without_line(curve: ForceCurve, rows: Bools) -> Floats:
     """Force less the line through some rows [N]."""
     slope, offset = _line(curve, rows)
     return np.asarray(curve.spring_constant * (curve.deflection - offset - slope * curve.position))
+
+
+def _begin(force: Floats, threshold: float) -> int:
+    """First of two rows one after the other whose forces exceed a threshold [N]; 0 if none do."""
+    beyond = np.abs(force) > threshold
+    return int(np.argmax(beyond[:-1] & beyond[1:]))
+
+
+def _noise(force: Floats) -> float:
+    """Standard deviation of noise, from the median of its absolute values [N]."""
+    return 1.4826 * float(np.median(np.abs(force)))
 
 
 def _line(curve: ForceCurve, rows: Bools) -> tuple[float, float]:

@@ -7,16 +7,15 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.bodies.laws import Elastic
-from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.units.display import Displayable
 from viscontact.units.formatting import column_heading, format_quantity
 
@@ -25,31 +24,26 @@ CurveT = TypeVar("CurveT")
 #: Parts of the curves whose values the summary states, beside the median.
 QUARTILES = (25.0, 50.0, 75.0)
 
+#: Interval of a value that a curve does not have.
+_UNKNOWN = (math.nan, math.nan)
 
-@dataclass(frozen=True)
-class FittedCurve:
-    """Fit of one curve of many, in numbers, or the reason why there is none."""
 
-    name: str
-    values: Mapping[str, float]  # parameters of the law, SI
-    intervals: Mapping[str, tuple[float, float]]
-    units: Mapping[str, str]
-    residual: float = math.nan  # root mean square over the largest value [-]
-    indentation: float = math.nan  # largest approach [m]
-    force: float = math.nan  # largest force [N]
-    warning: str = ""
-    failure: str = ""
+class CurveFit(Protocol):
+    """Fit of a curve that states itself in numbers."""
+
+    def in_numbers(self, name: str) -> FittedCurve:
+        """Return the fit of the curve of a name as numbers."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CurveFits(Displayable):
-    """Laws fitted to many curves, of `fit_each`.
+    """Laws or adhesion fitted to many curves, of `fit_each`.
 
     Attributes
     ----------
     curves : tuple of FittedCurve
         Each curve in the order in which it was given: ``name``, ``values`` and ``intervals`` of the
-        law's parameters [SI], ``units``, ``residual``, ``indentation`` [m], ``force`` [N],
+        parameters [SI], ``units``, ``residual``, ``indentation`` [m], ``force`` [N],
         ``warning``, and ``failure``, which is empty for a curve that was fitted.
 
     Examples
@@ -102,7 +96,7 @@ class CurveFits(Displayable):
         Returns
         -------
         ndarray
-            In SI units; NaN where a curve does not have it.
+            In SI units; NaN where a curve does not have it or does not determine it.
         """
         return np.array([each.values.get(parameter, math.nan) for each in self.fitted])
 
@@ -122,16 +116,21 @@ class CurveFits(Displayable):
         heads: list[object] = ["curve"]
         for name in self.parameters:
             unit = self.unit_of(name)
-            heads += [column_heading(f"{name}{end}", unit) for end in ("", " low", " high")]
+            heads += [column_heading(f"{name}{end}", unit) for end in self._columns(name)]
         yield [*heads, "residual", "indentation [m]", "force [N]", "warning", "failure"]
         for each in self.curves:
             numbers: list[float] = []
             for name in self.parameters:
-                low, high = each.intervals.get(name, (math.nan, math.nan))
-                numbers += [each.values.get(name, math.nan), low, high]
+                stated = each.values.get(name, math.nan), *each.intervals.get(name, _UNKNOWN)
+                numbers += stated[: len(self._columns(name))]
             numbers += [each.residual, each.indentation, each.force]
             written = ["" if math.isnan(number) else f"{number:.6g}" for number in numbers]
             yield [each.name, *written, each.warning, each.failure]
+
+    def _columns(self, parameter: str) -> tuple[str, ...]:
+        """Endings of the columns of a parameter: its value, and its interval if it has one."""
+        has_interval = any(parameter in each.intervals for each in self.fitted)
+        return ("", " low", " high") if has_interval else ("",)
 
     def __repr__(self) -> str:
         total, found = len(self.curves), len(self.fitted)
@@ -139,14 +138,21 @@ class CurveFits(Displayable):
         for name in self.parameters:
             unit = self.unit_of(name)
             values = self.values_of(name)
-            low, middle, high = np.percentile(values[np.isfinite(values)], QUARTILES).tolist()
+            known = values[np.isfinite(values)]
+            if not known.size:
+                lines.append(f"     {name}: not determined by any curve")
+                continue
+            low, middle, high = np.percentile(known, QUARTILES).tolist()
             texts = [format_quantity(each, unit, 4) for each in (middle, low, high)]
-            lines.append("     {} = {} (half of the curves: {} to {})".format(name, *texts))
+            whose = "half of the curves"
+            if known.size < found:
+                whose = f"determined by {known.size} of {found} curves, half of these"
+            lines.append("     {} = {} ({}: {} to {})".format(name, texts[0], whose, *texts[1:]))
         return "\n".join(lines)
 
 
 def fit_each(
-    fit: Callable[[CurveT], IndentationFit],
+    fit: Callable[[CurveT], CurveFit],
     curves: Mapping[str, CurveT],
     *,
     executor: Executor | None = None,
@@ -157,8 +163,8 @@ def fit_each(
     Parameters
     ----------
     fit : callable
-        Returns the fit of a curve, as `fit_indentation` does; a ValueError or OSError is the reason
-        why it has none. With an executor of processes a function of a module.
+        Returns the fit of a curve, as `fit_indentation` and `fit_adhesion` do; a ValueError or
+        OSError is the reason why it has none. With an executor of processes a function of a module.
     curves : mapping of str
         The curves by name, or what `fit` reads them from, such as files.
     executor : concurrent.futures.Executor, optional
@@ -202,7 +208,7 @@ def fit_each(
     return CurveFits(tuple(found))
 
 
-def _fitted(fit: Callable[[CurveT], IndentationFit], name: str, curve: CurveT) -> FittedCurve:
+def _fitted(fit: Callable[[CurveT], CurveFit], name: str, curve: CurveT) -> FittedCurve:
     """Fit of one curve in numbers."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
@@ -211,23 +217,4 @@ def _fitted(fit: Callable[[CurveT], IndentationFit], name: str, curve: CurveT) -
         except (ValueError, OSError) as error:
             return FittedCurve(name, {}, {}, {}, failure=str(error))
     told = [str(each.message) for each in caught if issubclass(each.category, AccuracyWarning)]
-    values, intervals = dict(found.parameters), dict(found.intervals)
-    units = dict(zip(found.parameters, found.units, strict=True))
-    ratio = found.material.poisson_ratio
-    if isinstance(found.law, Elastic) and ratio is not None:
-        factor = 2 * (1 + float(ratio))
-        values["youngs_modulus"] = factor * values["shear_modulus"]
-        low, high = intervals["shear_modulus"]
-        intervals["youngs_modulus"] = (factor * low, factor * high)
-        units["youngs_modulus"] = "Pa"
-    fitted = found.record.times <= found.until
-    return FittedCurve(
-        name,
-        values,
-        intervals,
-        units,
-        found.residual,
-        float(found.record.approach[fitted].max()),
-        float(found.record.force[fitted].max()),
-        " | ".join(told),
-    )
+    return replace(found.in_numbers(name), warning=" | ".join(told))

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.bodies.laws import Law
+from viscontact.bodies.laws import Elastic, Law
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.quality import Misfit
 from viscontact.identification.fitted_contact import FittedContact
+from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.identification.record import IndentationRecord
 from viscontact.units.display import Displayable
 from viscontact.units.formatting import format_quantity
@@ -105,6 +106,39 @@ class IndentationFit(Displayable):
     def residual(self) -> float:
         """Root mean square of the residuals [-]."""
         return float(np.sqrt(np.nanmean(self.residuals**2)))
+
+    def in_numbers(self, name: str) -> FittedCurve:
+        """Return the fit as a row of `CurveFits`, of an elastic body with Young's modulus.
+
+        Parameters
+        ----------
+        name : str
+            Name of the curve.
+
+        Returns
+        -------
+        FittedCurve
+            Parameters and intervals [SI], residual, largest indentation and force.
+        """
+        values, intervals = dict(self.parameters), dict(self.intervals)
+        units = dict(zip(self.parameters, self.units, strict=True))
+        ratio = self.material.poisson_ratio
+        if isinstance(self.law, Elastic) and ratio is not None:
+            factor = 2 * (1 + float(ratio))
+            values["youngs_modulus"] = factor * values["shear_modulus"]
+            low, high = intervals["shear_modulus"]
+            intervals["youngs_modulus"] = (factor * low, factor * high)
+            units["youngs_modulus"] = "Pa"
+        fitted = self.record.times <= self.until
+        return FittedCurve(
+            name,
+            values,
+            intervals,
+            units,
+            self.residual,
+            float(self.record.approach[fitted].max()),
+            float(self.record.force[fitted].max()),
+        )
 
     def __repr__(self) -> str:
         fitted = self.record.times[self.record.times <= self.until]

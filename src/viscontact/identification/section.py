@@ -1,4 +1,4 @@
-"""The `material:` section of a case file for a fitted law."""
+"""The sections of a case file for a fitted law, and for fitted adhesion."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from viscontact.bodies.laws import (
     Zener,
 )
 from viscontact.bodies.series_fits.fit import Fit
+from viscontact.identification.adhesion_fit import AdhesionFit
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.master_curve import MasterCurve
 from viscontact.identification.shift_section import shift_lines
@@ -75,6 +76,30 @@ def material_section(
     doubts, shift = _shift_of(fit, curve, temperature)
     lines = [*_warning(fit, doubts), *_law(law), f"data: {data}", volume, *shift]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
+
+
+def adhesive_sections(fit: AdhesionFit) -> str:
+    """Return modulus and adhesion of a fit as sections to paste into a case file.
+
+    Parameters
+    ----------
+    fit : AdhesionFit
+        From `fit_adhesion`.
+
+    Returns
+    -------
+    str
+        YAML, with six digits; a comment says which range it may be where the curve does not
+        determine one.
+    """
+    work, length = fit.parameters["work"], fit.parameters["range"]
+    given = f"range: {_number(length)} m"
+    if not fit.tells_range:
+        given = f"# range: {fit.limit}"
+    volume = _volume(fit.material.poisson_ratio, fit.material.bulk_modulus)
+    material = ["material:", *_law(fit.material.law), "data: shear", volume]
+    adhesion = ["adhesion:", f"work: {_number(work)} J/m2", given, "law: dugdale"]
+    return "\n".join("\n  ".join(each) for each in (material, adhesion))
 
 
 def _shift_of(

@@ -34,7 +34,10 @@ _PREFIXES = (
 _HOUR = 3600.0
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
 _WITHOUT_PREFIX = ("K", "1/K", "1/(Pa s)")
-_SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "m3": "m³", "m3 s-1": "m³/s", "1": ""}
+_SYMBOLS = {
+    **{"m2": "m²", "m^2": "m²", "m**2": "m²", "m3": "m³", "m3 s-1": "m³/s"},
+    **{"J/m^2": "J/m²", "1": ""},
+}
 
 
 def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:

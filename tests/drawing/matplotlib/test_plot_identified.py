@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from closeness import close_to
+from identification.adhesive_curves import RADIUS, drawn
 from viscontact import reference
 from viscontact.bodies.materials.material import Material
 from viscontact.identification import (
     IndentationRecord,
     Isotherm,
     build_master_curve,
+    fit_adhesion,
     fit_creep,
     fit_dynamic,
     fit_indentation,
@@ -19,7 +21,13 @@ from viscontact.identification import (
 )
 from viscontact.indenters import Sphere
 from viscontact.laws import WLF, Elastic, RelaxationSeries
-from viscontact.plot import fitted_indentation, fitted_series, master_curve, save_figure
+from viscontact.plot import (
+    fitted_adhesion,
+    fitted_indentation,
+    fitted_series,
+    master_curve,
+    save_figure,
+)
 
 T = np.geomspace(0.1, 100.0, 20)
 
@@ -147,3 +155,26 @@ def test_a_misfit_and_its_reason_stand_above_the_figure():
     curve = build_master_curve([isotherm], 293.15, WLF(293.15, 12.0, 70.0))
     panel = master_curve(curve, fit=missing).axes[2]
     assert "Misses the data" in panel.get_title(loc="left")
+
+
+def test_fitted_adhesion_shows_the_curve_and_jumps_along_the_cantilever(tmp_path):
+    curve, _ = drawn(3, 0.5, noise=1e-3)
+    fit = fit_adhesion(curve, Sphere(RADIUS), poisson_ratio=0.5)
+    loop, over_time, rest = (figure := fitted_adhesion(fit)).axes
+    units = {"µN": 1e-6, "nN": 1e-9, "nm": 1e-9, "µm": 1e-6}
+    force, way = (units[label[-3:-1]] for label in (loop.get_ylabel(), loop.get_xlabel()))
+    measured, fitted, *jumps = loop.lines
+    near = (fit.approach > 1.5 * fit.fitted_approach[fit.fitted < 0].min()) & (fit.fitted != 0)
+    assert np.isin(np.round(fit.measured[near] / force, 9), np.round(measured.get_ydata(), 9)).all()
+    np.testing.assert_allclose(force * fitted.get_ydata(), fit.fitted)
+    # In a jump the base stands still: the force changes by minus the stiffness over the way.
+    assert len(jumps) == 2
+    for jump in jumps:
+        slope = np.diff(force * jump.get_ydata()) / np.diff(way * jump.get_xdata())
+        assert slope[0] == close_to(-curve.spring_constant, rel=1e-9)
+    into, off = (force * jump.get_ydata() for jump in jumps)
+    assert into[0] == off[1] == 0.0
+    assert off[0] == fit.fitted[fit.fitted < 0][-1]
+    np.testing.assert_allclose(rest.lines[0].get_ydata(), 100 * fit.residuals)
+    assert over_time.get_ylabel() == loop.get_ylabel()
+    save_figure(figure, tmp_path / "fit.png")

@@ -175,6 +175,14 @@ LawName = Annotated[
         "power-law or power-law-with-instant; by default zener.",
     ),
 ]
+Adheres = Annotated[
+    bool,
+    typer.Option(
+        "--adhesion",
+        help="Fit the work of adhesion, its range, modulus and contact point to approach and "
+        "retraction of a force curve: a sphere on an elastic body.",
+    ),
+]
 ReferenceTime = Annotated[
     str | None,
     typer.Option(
@@ -298,6 +306,7 @@ def fit(
     shift: Shift = None,
     thermal_strain: ThermalStrain = None,
     indenter: Body = None,
+    adhesion: Adheres = False,
     spring_constant: SpringConstant = None,
     sensitivity: Sensitivity = None,
     reach: Reach = None,
@@ -327,7 +336,8 @@ def fit(
 
     Measurements at several temperatures are joined to a master curve, and the shift factors are
     printed; of a test whose temperature varied, law and shift are found together. In a force curve,
-    contact point and baseline are found together with the law; many curves, as curves/*.csv, give
+    contact point and baseline are found together with the law, or with --adhesion from approach
+    and retraction together with the work of adhesion; many curves, as curves/*.csv, give
     one table and histograms of their values. With --case, values of a case are fitted to records by
     runs of the case.
     """

@@ -12,6 +12,7 @@ from viscontact.cli.material.fit_report import DeferredFigure, draw_fit
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.identification import (
+    AdhesionFit,
     IndentationFit,
     IndentationRecord,
     find_contact,
@@ -88,7 +89,7 @@ def report_fits(
         draw_fit(DeferredFigure("curve_fits", found), output, width)
 
 
-def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit:
+def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit | AdhesionFit:
     """Fit of the curve or record in a file; ValueError or OSError where there is none."""
     if is_instrument_file(split_number(file)[0]):
         fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
@@ -98,6 +99,7 @@ def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit:
         table = read_table(file, arguments.columns, wanted=_COLUMNS)
         indenter = arguments.indenter_of(file.name)
         if "force" in table and "approach" in table:
+            fit_kinds.INDENTATION.refuse_idle(file.name, arguments.given, table.contents)
             record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
             return arguments.fitted(record)
         if "position" not in table:
@@ -106,7 +108,11 @@ def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit:
                 "columns time, and approach and force, or position and deflection; others belong "
                 "to a case (--case)"
             )
+        kind = fit_kinds.VOLTAGE_CURVE if "signal" in table else fit_kinds.FORCE_CURVE
+        kind.refuse_idle(file.name, arguments.given, table.contents)
         curve = arguments.force_curve(table)
+    if arguments.adhesion:
+        return arguments.adhering(curve, indenter)
     options = {} if arguments.reach is None else {"reach": arguments.reach}
     return arguments.fitted(find_contact(curve, indenter, **options).record())
 
@@ -124,7 +130,7 @@ def _names(files: Sequence[Path]) -> list[str]:
 def _print_failures(found: CurveFits) -> None:
     """Print the first curves that have no fit, with the reasons."""
     for each in found.failed[:_SHOWN]:
-        reason = each.failure.removeprefix("fit_indentation: ")
+        reason = each.failure.removeprefix("fit_indentation: ").removeprefix("fit_adhesion: ")
         say(reason if reason.startswith(each.name) else f"{each.name}: {reason}")
     if (left := len(found.failed) - _SHOWN) > 0:
         say(f"and {left} more have no fit; the table has the reasons")

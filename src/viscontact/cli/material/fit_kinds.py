@@ -33,6 +33,7 @@ GOES_WITH = {
     "reference_time": _INDENTED,
     "spring_constant": _CURVE,
     "reach": _CURVE,
+    "adhesion": _CURVE,
     "sensitivity": "a force curve with its deflection in volts",
 }
 
@@ -49,13 +50,20 @@ class Kind:
 
         `contents` are the columns of a table in words.
         """
-        idle = [each for each in given if each in GOES_WITH and each not in self.options]
+        typed = list(given)
+        kind = self._with_adhesion() if "adhesion" in self.options & {*typed} else self
+        idle = [each for each in typed if each in GOES_WITH and each not in kind.options]
         if not idle:
             return
         where = "; ".join(f"{switch(each)} goes with {GOES_WITH[each]}" for each in idle)
-        found = f"{self.name}; {contents}" if contents else self.name
+        found = f"{kind.name}; {contents}" if contents else kind.name
         left = " and ".join(map(switch, idle))
         raise ValueError(f"{source}: {where}; this is {found}; leave {left} out")
+
+    def _with_adhesion(self) -> Kind:
+        """The same force curve where its adhesion is fitted: the body is elastic."""
+        options = self.options - {"law", "until", "reference_time", "reach"}
+        return Kind(f"{self.name}, fitted as a whole with --adhesion to an elastic body", options)
 
 
 def switch(parameter: str) -> str:
@@ -68,7 +76,7 @@ _OF_TABLES = frozenset({"columns", "stress"})
 _OF_SERIES = _OF_TABLES | {"data", "fluid"}
 _OF_WARMED = _OF_SERIES | {"reference", "temperature"}
 _OF_INDENTATIONS = frozenset({"indenter", "until", "law", "reference_time"})
-_OF_CURVES = _OF_INDENTATIONS | {"spring_constant", "reach"}
+_OF_CURVES = _OF_INDENTATIONS | {"spring_constant", "reach", "adhesion"}
 
 INDENTATION = Kind("an indentation record with its approach", _OF_INDENTATIONS | _OF_TABLES)
 FORCE_CURVE = Kind(

@@ -12,9 +12,11 @@ from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions
 from viscontact.bodies.series_fits.shift_rules import RULES
 from viscontact.identification import (
+    AdhesionFit,
     ForceCurve,
     IndentationFit,
     IndentationRecord,
+    fit_adhesion,
     fit_indentation,
 )
 from viscontact.identification.candidates import CANDIDATES
@@ -40,6 +42,7 @@ class FitArguments:
     reference: str | None = None
     temperature: str | None = None
     indenter: str | None = None
+    adhesion: bool = False
     law: str | None = None
     weight: Sequence[str] = ()
     stress: str | None = None
@@ -73,7 +76,8 @@ class FitArguments:
     @property
     def indented_law(self) -> str:
         """Law of an indentation record."""
-        return _USUAL_LAW if self.law is None else self.law
+        usual = "elastic" if self.adhesion else _USUAL_LAW
+        return usual if self.law is None else self.law
 
     def options(self, table: Table) -> FitOptions:
         """Return the options for the fit of a series to a table."""
@@ -186,6 +190,12 @@ class FitArguments:
             until=self.end(),
             reference_time=reference,
         )
+
+    def adhering(self, curve: ForceCurve, indenter: Indenter) -> AdhesionFit:
+        """Fit adhesion to a force curve."""
+        if self.poisson_ratio is None:
+            raise ValueError("--adhesion needs --poisson-ratio, such as 0.5, not --bulk-modulus")
+        return fit_adhesion(curve, indenter, poisson_ratio=self.poisson_ratio)
 
     def _refuse_terms_of_another_law(self, name: str) -> None:
         """Refuse a number of terms for an indentation whose law has none."""

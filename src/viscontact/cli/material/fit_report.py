@@ -27,6 +27,7 @@ from viscontact.identification import (
     Isotherm,
     MasterCurve,
     ShiftFit,
+    adhesive_sections,
     build_master_curve,
     find_contact,
     fit_master_curve,
@@ -198,7 +199,12 @@ def _from_tabulated_curve(table: Table, arguments: FitArguments) -> tuple[str, D
 def _from_force_curve(
     curve: ForceCurve, indenter: Indenter, arguments: FitArguments
 ) -> tuple[str, DeferredFigure]:
-    """Find the contact point, print it, and fit a law to the indentation."""
+    """Fit adhesion, or find the contact point, print it, and fit a law to the indentation."""
+    if arguments.adhesion:
+        with _warnings_said():
+            fit = arguments.adhering(curve, indenter)
+        put(repr(fit))
+        return adhesive_sections(fit), DeferredFigure("fitted_adhesion", fit)
     contact = (
         find_contact(curve, indenter)
         if arguments.reach is None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats
@@ -16,7 +18,7 @@ from viscontact.drawing.content.panel import (
     Panel,
     Units,
 )
-from viscontact.identification import ContactPoint, IndentationFit
+from viscontact.identification import AdhesionFit, ContactPoint, IndentationFit
 from viscontact.identification.contact_point import deflection_in_contact
 from viscontact.units.formatting import readable_unit
 
@@ -44,6 +46,68 @@ def force_panel(fit: IndentationFit, units: Units = readable_unit) -> Panel:
             Curve(d[counted], F[counted], "fitted", FITTED),
         ),
     )
+
+
+def adhesion_panel(fit: AdhesionFit) -> Panel:
+    """Force over the approach of the tip, measured and fitted, with the jumps of the fit."""
+    measured, approach, fitted = fit.approach, fit.fitted_approach, fit.fitted
+    jumps = _jumps(fit)
+    held = approach[np.isfinite(fitted) & (fitted != 0)]
+    reached = np.concatenate([held, *(jump.x for jump in jumps)])
+    low, high = float(reached.min()), float(reached.max())
+    beyond = _BEYOND * (high - low)
+    low, high = low - beyond, high + beyond
+    shown = (measured >= low) & (measured <= high)
+    return Panel(
+        Axis.between("Approach", "m", low, high),
+        Axis.of("Force", "N", fit.measured),
+        (
+            Curve(measured[shown], fit.measured[shown], "measured", look="hollow", is_fine=True),
+            Curve(approach, fitted, "fitted", FITTED),
+            *jumps,
+        ),
+        note=_work(fit),
+    )
+
+
+def _jumps(fit: AdhesionFit) -> list[Curve]:
+    """Jumps into contact and off, at the base position of the last row before each.
+
+    There the tip moves with its cantilever, between no force and the contact, which is that of the
+    retraction: the rows of the approach beside the jump were not fitted.
+    """
+    base = fit.curve.position - fit.contact.position
+    turn, counted = fit.curve.loading_rows, np.isfinite(fit.fitted)
+    held = counted & (fit.fitted != 0)
+    back = np.flatnonzero(held[turn:])[::-1] + turn
+    into = int(np.flatnonzero(counted & ~held & (np.arange(held.size) < turn))[-1])
+    spring, jumps = fit.curve.spring_constant, []
+    if back.size:
+        at = max(base[into], base[back[0]])
+        jumps.append((at, 0.0, float(np.interp(at, base[back], fit.fitted[back]))))
+    if back.size and back[0] + 1 < held.size:
+        jumps.append((base[back[0]], float(fit.fitted[back[0]]), 0.0))
+    return [
+        Curve(at - np.array(forces) / spring, np.array(forces), "", FITTED, "dashed")
+        for at, *forces in jumps
+    ]
+
+
+def _work(fit: AdhesionFit) -> str:
+    """Work of adhesion and its interval."""
+    found, (low, high) = fit.parameters["work"], fit.intervals["work"]
+    unit = readable_unit("J/m^2", high)
+    value, least, most = (f"{each:.3g}" for each in unit([found, low, high]))
+    return f"work {value} {unit.symbol} ({fit.confidence:.0%}: {least} to {most})"
+
+
+def adhesion_course(fit: AdhesionFit) -> tuple[Panel, Panel]:
+    """Measured and fitted force over time, interrupted beside jumps, and the residuals."""
+    times = fit.curve.times
+    above, below = course_panels("Force", "N", times, fit.measured, fit.fitted, fit.residuals)
+    measured, _ = above.curves
+    drawn = (measured, Curve(times, fit.fitted, "fitted", FITTED))
+    return replace(above, curves=drawn), below
 
 
 def course_of(fit: IndentationFit, units: Units = readable_unit) -> tuple[Panel, Panel]:

@@ -44,6 +44,7 @@ from viscontact.drawing.matplotlib.histories.von_mises import compare_von_mises,
 from viscontact.drawing.matplotlib.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.drawing.matplotlib.materials.curve_fits import curve_fits
 from viscontact.drawing.matplotlib.materials.fitted import (
+    fitted_adhesion,
     fitted_indentation,
     fitted_records,
     fitted_series,
@@ -117,6 +118,7 @@ __all__ = [
     "draw_load",
     "draw_power_spectrum",
     "exact",
+    "fitted_adhesion",
     "fitted_indentation",
     "fitted_records",
     "fitted_series",

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.adhesion import regime
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
@@ -22,10 +23,6 @@ from viscontact.simulation.checks.adhesion import (
     tail_warning,
 )
 from viscontact.units.formatting import format_number, format_quantity
-
-#: Tabor numbers up to which the limit of long ranges (DMT) holds within some percents, and from
-#: which that of short ones (JKR) does [-].
-DMT_BELOW, JKR_ABOVE = 0.1, 5.0
 
 #: Pull-off forces of an elastic sphere in the limits, over pi w R [-].
 JKR_PULL, DMT_PULL = 1.5, 2.0
@@ -68,7 +65,7 @@ def adhesion_rows(law: CohesiveLaw, problem: Problem, grid: Grid) -> Iterator[tu
         at_once, at_end = numbers
         creeps = at_end > at_once * (1 + 1e-9)
         earlier = f", {format_number(at_once, 2)} at once" if creeps else ""
-        yield "Tabor number", f"{format_number(at_end, 2)}{earlier}: {_regime(at_end)}"
+        yield "Tabor number", f"{format_number(at_end, 2)}{earlier}: {regime(at_end)}"
         radius = effective_radius(problem.indenter)
         assert radius is not None  # there is a Tabor number
         least, most = (
@@ -80,15 +77,6 @@ def adhesion_rows(law: CohesiveLaw, problem: Problem, grid: Grid) -> Iterator[tu
     width = cells_across_zone(law, problem, grid)
     size = format_quantity(width * longest_edge(grid), "m", 3)
     yield "cohesive zone", f"{size} wide, {format_number(width, 2)} cells"
-
-
-def _regime(number: float) -> str:
-    """The limit that applies at a Tabor number, in words."""
-    if number <= DMT_BELOW:
-        return f"long range, DMT's limit applies (below {DMT_BELOW:g})"
-    if number >= JKR_ABOVE:
-        return f"short range, JKR's limit applies (above {JKR_ABOVE:g})"
-    return f"between DMT's limit (below {DMT_BELOW:g}) and JKR's (above {JKR_ABOVE:g})"
 
 
 def zone_warnings(law: CohesiveLaw, problem: Problem, grid: Grid) -> dict[str, str]:

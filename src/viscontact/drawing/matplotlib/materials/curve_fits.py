@@ -34,8 +34,8 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        A panel for each parameter, over a logarithmic axis where the values differ by more than a
-        factor of ten; a line marks the median, a band half of the curves.
+        A panel for each parameter that a curve determines, over a logarithmic axis where the values
+        differ by more than a factor of ten; a line marks the median, a band half of the curves.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
 
     Examples
     --------
-    >>> from viscontact.identification.curve_batch import FittedCurve
+    >>> from viscontact.identification import FittedCurve
     >>> curves = tuple(
     ...     FittedCurve(str(G), {"shear_modulus": G}, {}, {"shear_modulus": "Pa"})
     ...     for G in (1e3, 2e3, 2.5e3, 4e3)
@@ -52,7 +52,7 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
     >>> [axes.get_xlabel() for axes in curve_fits(CurveFits(curves)).axes]
     ['Shear modulus [kPa]']
     """
-    names = fits.parameters
+    names = [each for each in fits.parameters if np.isfinite(fits.values_of(each)).any()]
     if not names:
         raise ValueError("curve_fits: no curve has a fit")
     across = min(len(names), 2)
@@ -62,14 +62,15 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
     panels = list(figure.subplots(rows, across, squeeze=False).flat)
     for axes, name in zip(panels, names, strict=False):
         values = fits.values_of(name)
-        _histogram(axes, name, fits.unit_of(name), values[np.isfinite(values)])
+        _histogram(axes, name, fits.unit_of(name), values)
     for unused in panels[len(names) :]:
         unused.remove()
     return figure
 
 
-def _histogram(axes: Axes, name: str, si: str, values: Floats) -> None:
-    """Histogram of a parameter [SI] with its median and its quartiles."""
+def _histogram(axes: Axes, name: str, si: str, every: Floats) -> None:
+    """Histogram of a parameter [SI] with its median and its quartiles; NaN where not determined."""
+    values = every[np.isfinite(every)]
     style.dress(axes)
     low, middle, high = np.percentile(values, (25.0, 50.0, 75.0)).tolist()
     unit = readable_unit(si, middle)
@@ -91,8 +92,9 @@ def _histogram(axes: Axes, name: str, si: str, values: Floats) -> None:
     if is_wide:
         axes.set_xscale("log")
         plain_log_ticks(axes.xaxis)
-    label = name.replace("_", " ").replace("youngs", "Young's")
+    label = name.replace("_", " ").replace("youngs", "Young's").replace("pull off", "pull-off")
     axes.set_xlabel(unit.label(label[0].upper() + label[1:]))
     axes.set_ylabel("Curves")
-    text = f"median {format_quantity(middle, si, 3)}, {values.size} curves"
+    known = f"{values.size} of " if values.size < every.size else ""
+    text = f"median {format_quantity(middle, si, 3)}, {known}{every.size} curves"
     style.add_heading(axes, text)

@@ -7,13 +7,19 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viscontact.drawing.content.fit_course import course_of, course_panels, force_panel
+from viscontact.drawing.content.fit_course import (
+    adhesion_course,
+    adhesion_panel,
+    course_of,
+    course_panels,
+    force_panel,
+)
 from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.content.series_fit import fit_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
-from viscontact.identification import Fit, IndentationFit
+from viscontact.identification import AdhesionFit, Fit, IndentationFit
 
 #: Most records beside each other.
 _MOST_ACROSS = 3
@@ -83,6 +89,53 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
     >>> [axes.get_ylabel() for axes in fitted_indentation(fit).axes]
     ['Force [µN]', 'Force [µN]', 'Residual [%]']
     """
+    heading = f"{type(fit.law).__name__}, residual {100 * fit.residual:.2g} % rms"
+    return _loop_and_course(force_panel(fit), course_of(fit), width, heading)
+
+
+def fitted_adhesion(fit: AdhesionFit, *, width: Width | None = None) -> Figure:
+    """Draw a force curve, the fitted contact that adheres, and the residuals.
+
+    Parameters
+    ----------
+    fit : AdhesionFit
+        From `viscontact.fit_adhesion`.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Force, without the baseline, over the approach of the tip from the first touch of the
+        undeformed surfaces on, near the contact; dashed lines are the jumps. Next to it, below it
+        on a narrow page, the force and its residuals, relative to the largest force, over time.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscontact as vc
+    >>> jkr = vc.reference.jkr_sphere(5e-6, compliance=1 / 2e6, work=0.02)
+    >>> states = [jkr.at_radius(a) for a in np.linspace(0.3e-6, 2e-6, 200)]
+    >>> held = np.array([state.force for state in states])
+    >>> base = np.array([state.approach for state in states]) + held / 0.5
+    >>> end = int(np.argmin(base))
+    >>> way = np.linspace(base[end] - 2e-6, base[-1], 100)
+    >>> position = np.concatenate([way, way[::-1]])
+    >>> bent = np.interp(position, base[end:], held[end:]) / 0.5
+    >>> bent[(position < 0) & (np.arange(200) < 100) | (position < base[end])] = 0.0
+    >>> curve = vc.ForceCurve(np.linspace(0, 2, 200), position, bent, spring_constant=0.5)
+    >>> fit = vc.fit_adhesion(curve, vc.Sphere(5e-6), poisson_ratio=0.5)
+    >>> [axes.get_ylabel() for axes in fitted_adhesion(fit).axes]
+    ['Force [µN]', 'Force [µN]', 'Residual [%]']
+    """
+    panel = adhesion_panel(fit)
+    return _loop_and_course(panel, adhesion_course(fit), width, "")
+
+
+def _loop_and_course(
+    loop: Panel, course: tuple[Panel, Panel], width: Width | None, heading: str
+) -> Figure:
+    """Draw force over approach, and beside it, on a narrow page below it, values over time."""
     wide = page_width(width, style.TWO_COLUMNS)
     if wide > NARROW:
         figure = style.new_figure(wide, 3.2)
@@ -90,13 +143,12 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
     else:
         figure = style.new_figure(wide, 5.8)
         panels = figure.subplot_mosaic([["loop"], ["time"], ["rest"]], height_ratios=(3, 3, 1.2))
-    loop, over_time, below = panels["loop"], panels["time"], panels["rest"]
-    panel = force_panel(fit)
-    draw_panel(loop, panel)
-    style.add_legend(loop, *named_keys(panel.curves), loc="upper left")
-    _draw_course(over_time, below, course_of(fit))
-    style.add_heading(loop, f"{type(fit.law).__name__}, residual {100 * fit.residual:.2g} % rms")
-    figure.align_ylabels([over_time, below])
+    draw_panel(panels["loop"], loop)
+    style.add_legend(panels["loop"], *named_keys(loop.curves), loc="upper left")
+    _draw_course(panels["time"], panels["rest"], course)
+    if heading:
+        style.add_heading(panels["loop"], heading)
+    figure.align_ylabels([panels["time"], panels["rest"]])
     return figure
 
 
