@@ -92,6 +92,101 @@ def test_pressure_falls_towards_a_free_end_and_rises_towards_a_sharp_one() -> No
     assert peaks["free"][-1] < 0.8 * peaks["free"][middle].mean()
 
 
+#: Half width of the contact of the cylinders below, load per length, and their length [m, N/m].
+HALF_WIDTH, LINE, LENGTH = 0.25231e-3, 10e3, 16 * 0.25231e-3
+
+
+def _cylinder(ratio: float, cells: int = 80, *, body: Any = None, **load: Any) -> xr.Dataset:
+    """Rigid cylinder of a radius of 10 mm on a body of its own length."""
+    rubber = vc.Material(vc.Elastic.from_uniaxial(2e9 * (1 - ratio**2), poisson_ratio=ratio), ratio)
+    grid = vc.Grid((cells + 4, 32), (LENGTH * (1 + 4 / cells), 3 * HALF_WIDTH))
+    return vc.simulate(
+        vc.Roller(0.01, LENGTH / 2),
+        vc.Body(rubber, LENGTH) if body is None else body(rubber),
+        vc.step(LINE * LENGTH, **load),
+        grid,
+        [0.0],
+        errors=False,
+    )
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
+def test_the_line_load_on_a_body_of_equal_length_is_uniform_without_poisson_effect() -> None:
+    # Nothing acts along x: each slice is in plane strain and in plane stress at once.
+    for load in ({}, {"tilt_x": 0.0}):
+        line_load = _cylinder(0.0, **load).line_load[0].values[2:-2]
+        assert line_load == close_to(np.full(80, LINE), rel=2e-5)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
+@pytest.mark.parametrize(
+    ("ratio", "expected"),
+    [
+        # Line load over its mean at 0.5, 1, 2 and 4 half widths from the end, by an independent
+        # program, on one mesh.
+        (0.3, (0.873, 0.942, 0.996, 1.029)),
+        (0.5, (0.677, 0.837, 0.975, 1.071)),
+    ],
+)
+def test_the_line_load_falls_towards_free_ends(ratio: float, expected: tuple[float, ...]) -> None:
+    found = _cylinder(ratio)
+    from_end = LENGTH / 2 - found.x.values[42:-2]
+    over_mean = found.line_load[0].values[42:-2] / LINE
+    places = HALF_WIDTH * np.array([0.5, 1.0, 2.0, 4.0])
+    assert np.interp(places, from_end[::-1], over_mean[::-1]) == close_to(expected, rel=6e-3)
+    assert np.isnan(found.approach[0])
+    assert found.tilt_x[0] == 0.0  # by symmetry
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
+def test_an_eccentric_force_on_two_free_ends_is_balanced_and_has_no_tilt() -> None:
+    one, other = (_cylinder(0.3, 40, eccentricity_x=side * 0.3e-3) for side in (-1, 1))
+    for side, found in ((-1, one), (1, other)):
+        line_load = found.line_load[0].values
+        moment = (line_load * found.x.values).sum() / line_load.sum()
+        assert moment == close_to(side * 0.3e-3, rel=1e-6)
+        assert np.isnan(found.tilt_x[0])
+        assert "slope of its edge" in found.attrs["warnings"]
+    assert one.line_load[0].values == close_to(other.line_load[0].values[::-1], rel=1e-5)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
+def test_half_of_a_body_with_two_free_ends_is_held_in_the_middle() -> None:
+    whole = _cylinder(0.4, 40).line_load[0].values[22:]
+    half = vc.simulate(
+        vc.Roller(0.01, LENGTH / 2),
+        vc.Body(
+            vc.Material(vc.Elastic.from_uniaxial(2e9 * 0.84, poisson_ratio=0.4), 0.4),
+            LENGTH / 2,
+            centre=LENGTH / 4,
+            ends=("held", "free"),
+        ),
+        vc.step(LINE * LENGTH / 2, tilt_x=0.0),
+        vc.Grid((24, 32), (LENGTH * 0.6, 3 * HALF_WIDTH), centre=(0.25 * LENGTH, 0.0)),
+        [0.0],
+        errors=False,
+    )
+    assert half.line_load[0].values[2:] == close_to(whole, rel=1e-5)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # long steps, no datum
+def test_a_body_that_creeps_between_two_ends_begins_and_ends_as_elastic_ones() -> None:
+    law = vc.Zener(1e6, 2e6, 2e6)
+
+    def pressed(own: vc.Law, times: list[float]) -> xr.Dataset:
+        body = vc.Body(vc.Material(own, 0.5), 1.6e-3)
+        load = vc.step(0.02, eccentricity_x=0.1e-3)
+        return vc.simulate(
+            vc.Sphere(0.01), body, load, vc.Grid((36, 32), (1.8e-3, 1.6e-3)), times, errors=False
+        )
+
+    creeping = pressed(law, [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 20.0, 60.0])
+    for index, modulus in ((0, 1e6), (-1, 0.5 / float(law(1e9)))):
+        elastic = pressed(vc.Elastic(modulus), [0.0])
+        for name in ("peak_pressure", "contact_area", "eccentricity_x"):
+            assert float(creeping[name][index]) == close_to(float(elastic[name][0]), rel=1e-4)
+
+
 def test_two_bodies_may_end_at_different_places() -> None:
     # A body that ends far away adds what a far end adds; with all its creep in one term or in two.
     rubber, steel = vc.Material(vc.Elastic(1e6), 0.5), vc.Material(vc.Elastic(2e6), 0.3)
@@ -106,7 +201,8 @@ def test_two_bodies_may_end_at_different_places() -> None:
 @pytest.mark.parametrize(
     ("changes", "why"),
     [
-        ({"ends": "free"}, "ends act on each other"),
+        ({"ends": "free", "load": vc.step(0.02, tilt_x=0.0)}, "load.tilt_x: .* bends as a plate"),
+        ({"ends": "free", "load": vc.step(approach=1e-6)}, "has no datum"),
         ({"grid": None}, "no grid is chosen"),
         ({"length": 4.01e-3}, "must be a border of cells"),
         ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-3])}, "not available in motion"),

@@ -1,4 +1,4 @@
-"""Verification case of a body that ends: the edge of an incompressible one."""
+"""Verification cases of bodies that end: an edge, and a cylinder between two free ends."""
 
 from __future__ import annotations
 
@@ -8,8 +8,14 @@ import numpy as np
 
 from viscontact import reference
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Roller
+from viscontact.bodies.laws import Elastic
+from viscontact.bodies.loads import step
+from viscontact.bodies.materials.body import Body
+from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.simulation.transient.state_generator import march
 from viscontact.verify.case import Case, Comparison, Quantity, history
 
 _MODULUS, _PRESSURE = 1e9, 1e6  # E*, and that on the rectangle [Pa]
@@ -33,6 +39,27 @@ def _edge(cells: int) -> tuple[Comparison, ...]:
     return (history(EDGE * np.asarray(half_space), displacement[0] / _MODULUS),)
 
 
+_LINE, _RADIUS, _LENGTH = 10e3, 10e-3, 4e-3  # load per length [N/m], radius and length [m]
+
+
+def _equal_lengths(cells: int) -> tuple[Comparison, ...]:
+    """Rigid cylinder on a body of its own length, whose ends are free, without Poisson's effect."""
+    # No stress on the ends and none along x: each slice is in plane strain, and in plane stress.
+    exact = reference.hertz_line(_LINE, _RADIUS, _MODULUS)
+    body = Body(Material(Elastic(_MODULUS / 2), poisson_ratio=0.0), _LENGTH)
+    # The contact ends at the same place of a cell on each grid.
+    across = 2 * cells + 1
+    width = across * exact.half_width / (0.75 * cells + 0.3)
+    grid = Grid((cells + 4, across), (_LENGTH * (1 + 4 / cells), width))
+    roller = Roller(_RADIUS, _LENGTH / 2)
+    (state,) = march(roller, body, step(_LINE * _LENGTH), grid, [0.0])
+    profile = state.pressure[2:-2]
+    return (
+        history(np.full(cells, _LINE), profile.sum(axis=1) * grid.cell_size[1]),
+        history(np.full(cells, exact.peak_pressure), profile.max(axis=1)),
+    )
+
+
 CASES = (
     Case(
         "edge of an incompressible body that ends",
@@ -40,5 +67,15 @@ CASES = (
         (Quantity("displacement", "m", 3e-4, 3e-5),),
         (16, 32, 64),
         _edge,
+    ),
+    Case(
+        "cylinder on a body of its length, free ends, ν = 0",
+        "Hertz 1882",
+        (
+            Quantity("line load", "N/m", 3e-5, 3e-5, has_order=False),
+            Quantity("peak pressure", "Pa", 2e-4, 2e-4, has_order=False),
+        ),
+        (16, 32, 64),
+        _equal_lengths,
     ),
 )

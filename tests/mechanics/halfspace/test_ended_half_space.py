@@ -12,6 +12,7 @@ from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.end_correction import end_basis
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 from viscontact.mechanics.halfspace.free_end import end_functions
+from viscontact.mechanics.halfspace.strip_basis import StripRows, strip_basis
 
 GRID = Grid((20, 12), (20.0, 9.0))
 INSIDE = slice(4, 16)
@@ -113,3 +114,83 @@ def test_a_free_end_keeps_reciprocity() -> None:
     one, other = _pressure(1), _pressure(2)
     there = np.sum(other * convolution.apply(one))
     assert there == close_to(np.sum(one * convolution.apply(other)), rel=1e-12)
+
+
+FREE = EndedResponse(0.3, (-6.0, 6.0), (True, True))
+
+
+def test_two_free_ends_add_the_sum_over_all_pairs_of_cells() -> None:
+    pressure = _pressure()
+    held = _displacement(EndedResponse(0.3, (-6.0, 6.0), (False, False)), pressure)[INSIDE]
+    added = _displacement(FREE, pressure)[INSIDE] - held
+    strip, offsets = StripRows(12, (True, True)), np.abs(np.subtract.outer(*[np.arange(12)] * 2))
+    expected = np.zeros((12, 12))
+    for odd in (False, True):
+        basis = strip_basis(0.3, strip, range(12), GRID.cell_size, 9.0, odd=odd)
+        table = basis.basis @ basis.coefficients(12, GRID.cell_size[1]) @ basis.basis.T
+        expected += np.einsum("jkab,bk->aj", table[offsets], pressure[INSIDE])
+    assert added == close_to(expected, rel=1e-9)
+
+
+def test_between_two_free_ends_the_mirrored_pressure_displaces_the_mirror_image() -> None:
+    pressure = _pressure()
+    found = _displacement(FREE, pressure)
+    assert found == close_to(_displacement(FREE, pressure[::-1])[::-1], rel=1e-12)
+    # With an odd number of cells, the row in the middle is even.
+    odd = Grid((15, 12), (15.0, 9.0))
+    domain = ContactDomain(odd, response=EndedResponse(0.3, (-5.5, 5.5), (True, True)))
+    some = np.zeros((15, 12))
+    some[2:13] = np.random.default_rng(1).random((11, 12))
+    turned = domain.convolution.apply(some[::-1])[::-1]
+    assert domain.convolution.apply(some) == close_to(turned, rel=1e-12)
+
+
+def test_half_of_an_even_pressure_between_two_free_ends_is_one_beside_a_wall() -> None:
+    pressure = _pressure()
+    even = pressure + pressure[::-1]
+    half = ContactDomain(GRID, response=FREE, mirrored=(True, False))
+    found = half.expand_by_symmetry(half.convolution.apply(half.reduce_by_symmetry(even)))
+    assert found[INSIDE] == close_to(_displacement(FREE, even)[INSIDE], rel=1e-6)
+    wall = EndedResponse(0.3, (0.0, 6.0), (False, True))
+    assert _displacement(wall, even)[10:16] == close_to(found[10:16], rel=1e-12)
+    turned = EndedResponse(0.3, (-6.0, 0.0), (True, False))
+    assert _displacement(turned, even)[4:10] == close_to(found[4:10], rel=1e-12)
+
+
+def test_a_part_of_a_body_between_two_free_ends_is_displaced_as_in_the_whole() -> None:
+    pressure = _pressure()
+    pressure[:7] = 0.0
+    cut = Grid((14, 12), (14.0, 9.0), centre=(3.0, 0.0))  # one face lies outside
+    found = ContactDomain(cut, response=FREE).convolution.apply(pressure[6:])
+    assert found[1:10] == close_to(_displacement(FREE, pressure)[7:16], rel=1e-6)
+    whole = ContactDomain(GRID, response=FREE)
+    patch = whole._patch(slice(6, 18), slice(2, 9))
+    part = np.where(np.arange(12) < 9, pressure, 0.0)
+    part[:, :2] = 0.0
+    on_patch = patch.convolution.apply(part[6:18, 2:9].astype(np.float32))
+    assert on_patch == close_to(whole.convolution.apply(part)[6:18, 2:9], rel=1e-5)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.5])
+def test_two_free_ends_keep_reciprocity_and_give_way(ratio: float) -> None:
+    response = EndedResponse(ratio, (-6.0, 6.0), (True, True))
+    one, other = _pressure(1), _pressure(2)
+    found = _displacement(response, one)
+    there = np.sum(other * found)
+    assert there == close_to(np.sum(one * _displacement(response, other)), rel=1e-12)
+    held = _displacement(EndedResponse(ratio, (-6.0, 6.0), (False, False)), one)
+    assert np.sum(one * (found - held)) > 0
+
+
+def test_a_far_free_end_is_felt_as_that_of_a_body_that_goes_on() -> None:
+    pressure = _pressure()
+    lone = _displacement(EndedResponse(0.3, (-6.0, None), (True, False)), pressure)[INSIDE]
+    spread = []
+    for length in (40.0, 80.0, 160.0):
+        both = EndedResponse(0.3, (-6.0, length - 6.0), (True, True))
+        missed = _displacement(both, pressure)[INSIDE] - lone
+        # Without a datum: up to a displacement and a tilt of the whole.
+        x = np.stack([np.ones(12), np.arange(12.0)]).repeat(12, axis=1)
+        rest = missed.ravel() - x.T @ np.linalg.lstsq(x.T, missed.ravel(), rcond=None)[0]
+        spread.append(np.abs(rest).max() / lone.max())
+    assert spread[2] < 0.4 * spread[1] < 0.16 * spread[0] < 1e-3

@@ -43,7 +43,9 @@ class Body(Displayable):
     -----
     The ends are planes about which the pressure has a mirror image; a free end adds the
     displacement of a plane without stress (M. Hetényi, J. Appl. Mech. 27 (1960) 289), by an
-    operator that depends on Poisson's ratio alone. So creep and ends separate.
+    operator that depends on Poisson's ratio alone. So creep and ends separate. Between two ends the
+    body is a plate below a depth of its length, and the approach has no datum (NaN); between two
+    free ones, it also bends, and the tilt along x has none unless all is symmetric about x = 0.
 
     Examples
     --------

@@ -14,14 +14,14 @@ functions is convolved along y by padded transforms, and the result is expanded.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
-from numpy.polynomial.legendre import leggauss, legvander
 
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.transforms import fast_length
+from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.free_end import (
     HIGHEST,
     EndFunctions,
@@ -42,24 +42,27 @@ NEGLECTED = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class EndBasis:
-    """Low-rank form of G over rows of cells, the first of which is nearest to the end.
-
-    At each wave number g = basis · product · basis'; all but the first are panels of NODES.
-    """
+    """Low-rank form of G over rows of cells: g = basis · product · basis' at each wave number."""
 
     basis: Floats  # shape (rows, rank), orthonormal
-    wave_numbers: Floats  # [1/m]
-    products: Floats  # times the cell's length, shape (wave numbers, rank, rank) [m]
+    borders: Floats  # of panels of NODES wave numbers [1/m]
+    #: Times the cell's length: mean below the first border, then at all nodes; shape (wave numbers,
+    #: rank, rank) [m].
+    products: Floats
 
     def coefficients(self, cells: int, edge: float) -> Floats:
         """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
-        # The mean of cos(k y) over a cell is a difference of sin(k y)/k at its edges. Waves before
-        # the first panel go as a - b ln k, whose integral is that of one wave number.
-        lowest, waves = self.wave_numbers[0], self.wave_numbers[1:]
+        # The mean of cos(k y) over a cell is a difference of sin(k y)/k at its edges.
         edges = (np.arange(cells + 1, dtype=np.float64) - 0.5) * edge
-        sines = _sine_weights(edges, waves.reshape(-1, NODES)) / waves
-        weights = np.column_stack([np.full(cells, np.e * lowest * edge), np.diff(sines, axis=0)])
+        waves = panel_nodes(self.borders, NODES)[0]
+        sines = oscillation_weights(self.borders, NODES, edges).imag / waves
+        before = np.full(cells, self.borders[0] * edge)
+        weights = np.column_stack([before, np.diff(sines, axis=0)])
         return np.tensordot(weights / np.pi, self.products, axes=1)
+
+    def turned(self) -> EndBasis:
+        """The same with its rows in the opposite order."""
+        return replace(self, basis=self.basis[::-1])
 
 
 def ends_error(poisson_ratio: float) -> float:
@@ -72,42 +75,22 @@ def end_basis(poisson_ratio: float, rows: range, cell_size: tuple[float, float])
     """Low-rank form of G of a free end, for rows of cells counted from it."""
     functions = end_functions(poisson_ratio)
     edge = cell_size[0]
-    waves, weights = _wave_numbers(FIRST_WAVE / (edge * rows.stop), 2 * HIGHEST / edge)
-    means = np.stack([_row_means(functions, wave * edge, rows) for wave in waves])
+    lowest, highest = FIRST_WAVE / (edge * rows.stop), 2 * HIGHEST / edge
+    borders = lowest * 2.0 ** np.arange(np.ceil(np.log2(highest / lowest)) + 1)
+    waves, weights = panel_nodes(borders, NODES)
+    # Waves before the first panel go as a - b ln k, whose mean is that at lowest/e.
+    waves, weights = np.append(lowest / np.e, waves), np.append(lowest, weights)
+    means = np.stack([row_means(functions, wave * edge, rows) for wave in waves])
     scaled = np.sqrt(weights)[:, None, None] * means
     flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
     diagonal = np.einsum("rk,rk->r", flat, flat)
     factors, _ = pivoted_cholesky(diagonal, lambda row: flat @ flat[row], NEGLECTED)
     basis = np.linalg.qr(factors)[0]
     projected = basis.T @ means
-    return EndBasis(basis, waves, edge * (projected @ projected.swapaxes(1, 2)))
+    return EndBasis(basis, borders, edge * (projected @ projected.swapaxes(1, 2)))
 
 
-def _wave_numbers(lowest: float, highest: float) -> tuple[Floats, Floats]:
-    """Wave numbers, the first for all below `lowest`, and their weights in an integral."""
-    ends = lowest * 2.0 ** np.arange(np.ceil(np.log2(highest / lowest)) + 1)
-    nodes, weights = leggauss(NODES)
-    half = np.diff(ends)[:, None] / 2
-    waves = ((ends[:-1] + ends[1:])[:, None] / 2 + half * nodes).ravel()
-    return np.append(lowest / np.e, waves), np.append(lowest, half * weights)
-
-
-def _sine_weights(places: Floats, panels: Floats) -> Floats:
-    """Weights of ∫ f(k) sin(k y) dk at the nodes of panels, by Filon's rule; (places, nodes)."""
-    # f is a sum of Legendre polynomials over each panel, which have spherical Bessel functions as
-    # transforms (Abramowitz & Stegun, eq. 10.1.14).
-    nodes, weights = leggauss(NODES)
-    middle = (panels[:, 0] + panels[:, -1]) / 2
-    half = (panels[:, -1] - panels[:, 0]) / (nodes[-1] - nodes[0])
-    orders = np.arange(NODES)
-    expansion = (2 * orders + 1) * legvander(nodes, NODES - 1) * weights[:, None]
-    bessel = scipy.special.spherical_jn(orders, np.abs(places)[:, None, None] * half[:, None])
-    phase = np.exp(1j * np.abs(places)[:, None] * middle)[..., None] * 1j**orders
-    found = np.einsum("pwn,mn->pwm", (phase * bessel).imag, expansion) * half[:, None]
-    return np.asarray(np.sign(places)[:, None] * found.reshape(len(places), -1))
-
-
-def _row_means(functions: EndFunctions, edge: float, rows: range) -> Floats:
+def row_means(functions: EndFunctions, edge: float, rows: range) -> Floats:
     """Means of φ_m over rows of a length k dx; shape (rows, m)."""
     begin = np.arange(rows.start, rows.stop, dtype=np.float64) * edge
     before, after = (functions.at(begin + edge * (0.5 + side / 12**0.5)) for side in (-1, 1))
@@ -120,10 +103,7 @@ def _row_means(functions: EndFunctions, edge: float, rows: range) -> Floats:
 
 
 class EndCorrection:
-    """Displacement beyond the mirrored half-space near one free end, on a block of cells.
-
-    Rows of the pressure are those of the basis, or with `turned` in the opposite order.
-    """
+    """Displacement beyond the mirrored half-space near free ends, on a block of cells."""
 
     def __init__(
         self,
@@ -132,14 +112,12 @@ class EndCorrection:
         columns: int,
         cell_size: tuple[float, float],
         *,
-        turned: bool = False,
         mirrored: bool = False,
         single: bool = False,
     ) -> None:
         """Take some rows of the basis and a number of columns, half of them if `mirrored`."""
-        basis = near.basis[rows]
         number = np.float32 if single else np.float64
-        self._basis = np.ascontiguousarray(basis[::-1] if turned else basis, number)
+        self._basis = np.ascontiguousarray(near.basis[rows], number)
         self._mirrored = mirrored
         self._length = fast_length(2 * columns - 1)
         table = near.coefficients(columns, cell_size[1])

@@ -14,6 +14,7 @@ from viscontact.mechanics.halfspace.convolution import Convolution
 from viscontact.mechanics.halfspace.end_correction import EndBasis, EndCorrection, end_basis
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
+from viscontact.mechanics.halfspace.strip_basis import StripRows, strip_basis
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     HalfSpaceResponse,
@@ -50,7 +51,7 @@ class EndedRows:
 
     borders: tuple[int | None, int | None]  # planes in rows from the first row of the domain
     coefficients: Floats  # [m], of the period of two lengths, or empty for one plane
-    bases: tuple[EndBasis | None, EndBasis | None]  # of the free ends
+    bases: tuple[EndBasis, ...]  # of the free ends, over the rows within the body
     first: int  # first row of the domain within the body
 
 
@@ -69,15 +70,32 @@ def ended_rows(
         # With the datum of a grid that is periodic.
         period, datum = 2 * (after - before), shape[1] * cell_size[1]
         table = periodic_layered_table((period, shape[1]), cell_size, HALF_SPACE, datum)
-    ranges = (
-        None if before is None else range(begin - before, end - before),
-        None if after is None else range(after - end, after - begin),
-    )
-    first, last = (
-        end_basis(response.poisson_ratio, rows, cell_size) if rows and is_free else None
-        for rows, is_free in zip(ranges, response.free, strict=True)
-    )
-    return EndedRows(borders, table, (first, last), begin)
+    width = shape[1] * cell_size[1]
+    bases = _bases_of_ends(response, range(begin, end), borders, cell_size, width)
+    return EndedRows(borders, table, bases, begin)
+
+
+def _bases_of_ends(
+    response: EndedResponse,
+    rows: range,
+    borders: tuple[int | None, int | None],
+    cell_size: tuple[float, float],
+    width: float,
+) -> tuple[EndBasis, ...]:
+    """Low-rank forms of what the free ends add on rows of a domain."""
+    before, after = borders
+    ratio, free = response.poisson_ratio, response.free
+    if not rows or not any(free):
+        return ()
+    if before is not None and after is not None:
+        strip = StripRows(after - before, free)
+        inside = range(rows.start - before, rows.stop - before)
+        shared = (ratio, strip, inside, cell_size, width)
+        return tuple(strip_basis(*shared, odd=odd) for odd in strip.kinds)
+    if before is not None:
+        return (end_basis(ratio, range(rows.start - before, rows.stop - before), cell_size),)
+    assert after is not None  # at least one plane is given
+    return (end_basis(ratio, range(after - rows.stop, after - rows.start), cell_size).turned(),)
 
 
 class Operator(Protocol):
@@ -150,14 +168,8 @@ class EndedConvolution:
         )
         own = slice(begin - ended.first, end - ended.first)
         self._corrections = [
-            EndCorrection(
-                *(basis, _rows_of_basis(basis, own, side), ny, cell_size),
-                turned=bool(side),
-                mirrored=mirrored,
-                single=single,
-            )
-            for side, basis in enumerate(ended.bases)
-            if basis is not None
+            EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
+            for basis in ended.bases
         ]
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
@@ -195,9 +207,3 @@ class WeightedOperators:
         for operator, weight in others:
             total += weight * operator.apply(pressure)
         return total
-
-
-def _rows_of_basis(basis: EndBasis, rows: slice, side: int) -> slice:
-    """Rows of a basis, counted from its end, of rows of the body."""
-    count = len(basis.basis)
-    return slice(count - rows.stop, count - rows.start) if side else rows

@@ -63,6 +63,25 @@ class LogPanels:
         inside = np.einsum("mn,pnk->pmk", _PARTIAL, panels) * half
         return np.asarray((before[:, None] + inside).reshape(values.shape))
 
+    def weights_until(self, ends: Floats) -> Floats:
+        """Weights of ∫ f dX from X = 0 to ends within the panels; shape (ends, nodes).
+
+        Nearer than the first panel f counts as at the first node.
+        """
+        logarithms = np.log(np.maximum(ends, np.exp(self.edges[0])))
+        panel = np.searchsorted(self.edges, logarithms, side="left") - 1
+        panel = np.clip(panel, 0, len(self.edges) - 2)
+        begin, length = self.edges[panel], np.diff(self.edges)[panel]
+        parts = (logarithms - begin)[:, None] / 2 * (_T + 1)
+        weights = (logarithms - begin)[:, None] / 2 * _W * np.exp(begin[:, None] + parts)
+        inside = interpolation(2 * parts / length[:, None] - 1)
+        found = np.where(np.arange(len(self.places)) < panel[:, None] * NODES, self.weights, 0.0)
+        columns = panel[:, None] * NODES + np.arange(NODES)
+        rows = np.arange(len(ends))[:, None]
+        found[rows, columns] = np.einsum("eq,eqn->en", weights, inside)
+        found[:, 0] += np.minimum(ends, np.exp(self.edges[0]))
+        return np.asarray(found)
+
     def weights_of_logarithm(self, kernel: Callable[[Floats], Floats]) -> Floats:
         """Weights of ∫ k(|X - X'|) f(X') dX' at the nodes X, for a kernel with a logarithm at 0."""
         distance = np.abs(self.places[:, None] - self.places)
@@ -91,6 +110,11 @@ class LogPanels:
         along = (2 * logarithm - begin - end) / (end - begin)
         polynomials = legvander(along.ravel(), NODES - 1) @ _COEFFICIENTS
         return np.asarray(weights.ravel() @ polynomials)
+
+
+def interpolation(places: Floats) -> Floats:
+    """Values at places from -1 to 1 in a panel, of values at its nodes; shape (..., nodes)."""
+    return np.asarray(legvander(places, NODES - 1) @ _COEFFICIENTS)
 
 
 def _partial_integrals() -> Floats:

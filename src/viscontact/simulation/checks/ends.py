@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads import LoadPoint
 from viscontact.mechanics.halfspace.end_correction import ends_error
+from viscontact.mechanics.halfspace.strip_basis import strip_error
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -16,16 +23,16 @@ NO_DATUM = (
     "logarithm of the depth from which it is measured, so that the approach has no datum"
 )
 
+#: Reason why a body between two free ends has no tilt along x.
+NO_TILT = (
+    "a body with two free ends bends as a plate below a depth of its length, and the slope of its "
+    "edge along x grows as the logarithm of the depth from which it is measured"
+)
+
 
 def check_ends(problem: Problem) -> None:
     """Refuse what bodies that end cannot be computed with, before a grid is known."""
-    for name, body in problem.ended_bodies.items():
-        if "free" in body.ends and None not in body.ends:
-            raise ValueError(
-                f"{name}.ends: a body with a free end and another end is not available, as the "
-                f"ends act on each other, got {list(body.ends)}; if the contact lies at one end, "
-                "give that one only, as ['free', None] in Python, [free, null] in a case"
-            )
+    for name in problem.ended_bodies:
         if not problem.motion.stands:
             raise ValueError(
                 f"{name}.ends: a body that ends is not available in motion; let the contact "
@@ -72,6 +79,32 @@ def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
             raise ValueError(f"{name}.ends: no cell of the grid lies on the body; move the grid")
 
 
+def check_tilt_of_ends(
+    problem: Problem, load: Sequence[LoadPoint], grid: Grid, open_gap: Floats
+) -> None:
+    """Refuse a prescribed tilt that has no datum; open gap on the grid [m]."""
+    if all(point.tilt_x is None for point in load):
+        return
+    if not tilts_from_datum(problem, grid, open_gap):
+        raise ValueError(
+            f"load.tilt_x: {NO_TILT}, so that it cannot be prescribed; leave it out, and give the "
+            "eccentricity of the force, or make body, ends, grid and load symmetric about x = 0"
+        )
+
+
+def tilts_from_datum(problem: Problem, grid: Grid, open_gap: Floats) -> bool:
+    """True if the tilt along x has a datum: one end at most is free, or all is even about x = 0."""
+    bodies = problem.ended_bodies.values()
+    if not any(body.ends == ("free", "free") for body in bodies):
+        return True
+    return (
+        all(body.is_even for body in bodies)
+        and problem.load.is_even(0)
+        and grid.centre[0] == 0
+        and np.array_equal(open_gap, open_gap[::-1])
+    )
+
+
 def is_border(grid: Grid, plane: float) -> bool:
     """True if a plane across x lies on a border of cells, in the grid or continued beyond it."""
     place = (plane - grid.centre[0] + grid.size[0] / 2) / grid.cell_size[0]
@@ -84,15 +117,32 @@ def planes_of(problem: Problem) -> tuple[float, ...]:
     return tuple(plane for body in bodies for plane in body.planes if plane is not None)
 
 
-def error_of_ends(problem: Problem) -> float:
-    """Part of the displacement by free ends that their operator may miss [-]."""
-    free = (body for body in problem.ended_bodies.values() if "free" in body.ends)
-    return max((ends_error(body.material.poisson_ratio or 0.0) for body in free), default=0.0)
+def error_of_ends(problem: Problem, *, even: bool) -> float:
+    """Part of the displacement by free ends that their operator may miss [-].
+
+    With `even`, pressures are even about x = 0 only.
+    """
+    errors = [0.0]
+    for body in problem.ended_bodies.values():
+        ratio = body.material.poisson_ratio
+        assert ratio is not None  # refused otherwise
+        if "free" in body.ends:
+            errors.append(ends_error(ratio))
+            if None not in body.ends:
+                kinds = (False, True) if body.ends == ("free", "free") and not even else (False,)
+                errors[-1] += max(strip_error(ratio, odd=odd) for odd in kinds)
+    return max(errors)
 
 
-def datum_of_ends_warnings(problem: Problem, undefined: tuple[str, ...]) -> dict[str, str]:
-    """Warn that approach and what follows from it, `undefined`, have no datum between two ends."""
+def datum_of_ends_warnings(
+    problem: Problem, undefined: tuple[str, ...], *, tilts: bool
+) -> dict[str, str]:
+    """Warn that approach and what follows from it, `undefined`, have no datum between two ends.
+
+    With `tilts`, the tilt along x has one.
+    """
     if not problem.ends_twice:
         return {}
     *others, last = undefined
-    return {"datum": f"{NO_DATUM}: {', '.join(others)} and {last} are not defined (NaN)"}
+    words = f"{NO_DATUM}: {', '.join(others)} and {last} are not defined (NaN)"
+    return {"datum": words if tilts else f"{words}; {NO_TILT}, so that tilt_x is not, either"}

@@ -140,6 +140,8 @@ class Observer:
         )
         grown = self._run.problem.thickening_at(step.time)
         state = replace(state, approach=state.approach - grown, **moved)
+        if not self._run.tilts_from_datum:
+            state = replace(state, tilt_x=math.nan)
         if self._events is not None:
             self._events.after(state)
         if self._passage is not None:

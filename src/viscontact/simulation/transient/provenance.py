@@ -47,9 +47,16 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "memory_error": max(plan.error for plan in run.plans),
         "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
-        **({"ends_error": error_of_ends(run.problem)} if run.problem.ended_bodies else {}),
+        **_ends_attributes(run),
         **events,
     }
+
+
+def _ends_attributes(run: RunSetup) -> dict[str, float]:
+    """Error of the operator of bodies that end; none without."""
+    if not run.problem.ended_bodies:
+        return {}
+    return {"ends_error": error_of_ends(run.problem, even=run.mirrored[0])}
 
 
 def event_attributes(

@@ -23,7 +23,12 @@ from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 from viscontact.simulation.checks.adhesion import check_adhesion, law_on
-from viscontact.simulation.checks.ends import check_ends, check_grid_of_ends
+from viscontact.simulation.checks.ends import (
+    check_ends,
+    check_grid_of_ends,
+    check_tilt_of_ends,
+    tilts_from_datum,
+)
 from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
 from viscontact.simulation.checks.motion import check_motion, check_path
 from viscontact.simulation.checks.periodicity import check_endless, check_period
@@ -81,6 +86,11 @@ class RunSetup:
     def mirrored(self) -> tuple[bool, bool]:
         """True for x = 0 and for y = 0 if shape and load are even: one half is computed."""
         return _mirrored(self.problem, self.open_gap, self.grid)
+
+    @cached_property
+    def tilts_from_datum(self) -> bool:
+        """True if the tilt along x has a datum: not if a body that bends has two free ends."""
+        return tilts_from_datum(self.problem, self.grid, self.open_gap)
 
     def on(self, grid: Grid) -> RunSetup:
         """Return the same run on another grid."""
@@ -143,6 +153,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_grid_of_ends(problem, grid)
     open_gap = _gap_on(problem, grid)
     about_body = _about_body(problem, grid)
+    check_tilt_of_ends(problem, [point for _, point in points], grid, open_gap)
     check_touch(problem, points[0][1], open_gap, about_body)
     supported = problem.surface.is_supported
     check_period(problem.indenter, open_gap, grid, problem.contact_load, supported=supported)

@@ -58,7 +58,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")
     warnings |= datum_warnings(run.grid, undefined, supported=problem.surface.is_supported)
-    warnings |= datum_of_ends_warnings(problem, undefined)
+    warnings |= datum_of_ends_warnings(problem, undefined, tilts=run.tilts_from_datum)
     warnings |= layer_warnings(problem.thinnest_layer, run.grid.cell_size)
     if run.mesh is not None:
         warnings |= run.mesh.warnings

@@ -1,0 +1,271 @@
+"""Displacement of the surface of a body between two plane faces free of stress.
+
+The body takes -W < x < W, and the pressure on z = 0 is cos(k y) times an even or an odd function
+of x. Mirrored about both faces, the load leaves no shear on them, but a normal stress T p. A load
+f on the faces, mirrored about z = 0, leaves no shear and no displacement there, but a normal
+stress F f. So faces free of stress need f = (I - T F)^-1 T p, and the surface sinks beyond the
+mirrored half-space by G p, with (Betti's reciprocity, C the compliance of the faces under f)
+
+    G = T' C (I - T F)^-1 T.
+
+In units of 1/k, at the distance X from the face, with r² = 1 + ζ² and w = k W,
+
+    T = 2 s(X, Z) + (2/π) ∫ [(r² - 2ν) sin(ζZ)/ζ + r² Z cos(ζZ)] Q(r) dζ/r - (1 - 2ν) Q(1),
+
+where s is the stress by the load and its image about one face (see `free_end`), and Q the sum of
+exp(-r D) over all further images, of distances D. F and C are transforms of those of a slab
+(S. P. Timoshenko & J. N. Goodier, Theory of Elasticity, 1970, art. 24, with waves along y):
+
+    F = (2/π) ∫ [(ζ/r)² (2H - S) + (2ν/r²) H] cos(ζZ) dζ,   C = (2/π) ∫ (2/r) L cos(ζZ) cos(ζZ') dζ,
+
+with x = r w, ξ = r (w - X), D = sinh x cosh x + x, H = sinh x cosh ξ / D, L = sinh² x / D, and
+S = [(sinh x + x cosh x) cosh ξ - ξ sinh ξ sinh x] / D under even loads; under odd ones sinh and
+cosh change places and D = sinh x cosh x - x.
+
+For small w the body is a plate loaded at its edge, and w G tends to 2 ν²/(1 - ν²) under even loads,
+and to 6 x x' / (W² (1 - ν)(3 + ν)) under odd ones, which bend it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import scipy  # its special functions are imported at their first use
+from numpy.polynomial import chebyshev
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
+from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
+
+#: Range of k W in which faces act on each other and G is tabulated, and number of the places in it,
+#: Chebyshev's in ln k W. Above, each face is the end of a body that goes on.
+LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 18
+
+#: First place on the faces, in 1/k, and on the surface, in W; ratio of the ends of panels; last
+#: place on the faces, in 1/k.
+ON_FACE, ON_SURFACE, RATIO, DEEPEST = 1e-10, 1e-9, 6.0, 25.0
+
+#: Nodes of panels of ζ; first panel, ratio and end of those of images, and of those of C.
+NODES = 10
+OF_IMAGES, IMAGE_RATIO = (1e-7, 50.0), 2.0
+OF_FACES, FACE_RATIO = (0.5, 10.0), 4.0
+
+#: Products of r and k W from which on images are left out.
+FAR = 50.0
+
+#: Parts of a panel of Z in which functions of ln Z are taken as polynomials of Z.
+PARTS = 2
+
+#: Arguments below which sinh x cosh x - x is a series.
+SMALL = 0.03
+
+#: Places nearer to a face than this, in W, do not count in the stated error: no cell is so short.
+SHORTEST = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class StripTable:
+    """G over Chebyshev's places of ln k W and the nodes of panels of (W - |x|)/W."""
+
+    panels: LogPanels
+    coefficients: Floats  # Chebyshev's of w G, less its limit; shape (waves, nodes, nodes)
+    limit: Floats  # of w G for small w, shape (nodes, nodes)
+    error: float  # asymmetry and last coefficients, over the largest w G [-]
+
+    def weights(self, waves: Floats) -> Floats:
+        """Weights of coefficients, then of the limit, in G at w = k W; (waves, coefficients)."""
+        # Towards longer waves w G - limit falls as w.
+        inside = np.maximum(waves, LOWEST_WAVE)
+        powers = chebyshev.chebvander(_scaled(inside), WAVES - 1) / inside[:, None]
+        return np.column_stack([powers, 1 / waves])
+
+    @property
+    def entries(self) -> Floats:
+        """Coefficients and limit, shape (coefficients, nodes, nodes)."""
+        return np.concatenate([self.coefficients, self.limit[None]])
+
+
+def _scaled(waves: Floats) -> Floats:
+    """Places from -1 to 1 of the logarithm of k W."""
+    low, high = np.log(LOWEST_WAVE), np.log(HIGHEST_WAVE)
+    return np.asarray((2 * np.log(waves) - low - high) / (high - low))
+
+
+@lru_cache(maxsize=8)
+def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
+    """What two free faces add under even or odd loads, for a constant Poisson's ratio.
+
+    The face of a body with ν = 0.3 sinks by 0.0965 more than that of the mirrored half-space under
+    line loads cos(y/W) at x = W/2 and -W/2 (finite elements: 0.0965):
+
+    >>> table = strip_table(0.3, odd=False)
+    >>> at_one = np.tensordot(table.weights(np.array([1.0]))[0], table.entries, axes=1)
+    >>> under = scipy.interpolate.CubicSpline(table.panels.logarithms, at_one)
+    >>> near = np.searchsorted(table.panels.places, 1e-6)
+    >>> print(f"{under(np.log(0.5))[near]:.4f}")
+    0.0965
+    """
+    sign = -1.0 if odd else 1.0
+    panels = _surface()
+    angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
+    middle, half = np.log(LOWEST_WAVE * HIGHEST_WAVE) / 2, np.log(HIGHEST_WAVE / LOWEST_WAVE) / 2
+    waves = np.exp(middle + half * np.cos(angles))
+    raw = np.array([wave * _added(wave, poisson_ratio, sign) for wave in waves])
+    limit = _plate(poisson_ratio, panels.places, odd=odd)
+    # The load that is farther from the face feels less of what is left out there.
+    kept = np.triu(raw) + np.triu(raw, 1).swapaxes(1, 2) - limit
+    transform = 2 / WAVES * np.cos(np.outer(np.arange(WAVES), angles))
+    transform[0] /= 2
+    coefficients = np.tensordot(transform, kept, axes=1)
+    known = panels.places > SHORTEST
+    skew = np.abs(raw - raw.swapaxes(1, 2))[:, known][:, :, known].max()
+    tail = np.abs(coefficients[-2:])[:, known][:, :, known].sum(axis=0).max()
+    largest = np.abs(raw).max()
+    return StripTable(panels, coefficients, limit, float((skew + tail) / largest))
+
+
+def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
+    """Limit of w G for long waves, of a plate that is loaded at its edge."""
+    if not odd:
+        return np.full((len(places),) * 2, 2 * poisson_ratio**2 / (1 - poisson_ratio**2))
+    arm = 1 - places
+    return np.asarray(6 * np.outer(arm, arm) / ((1 - poisson_ratio) * (3 + poisson_ratio)))
+
+
+def _added(wave: float, poisson_ratio: float, sign: float) -> Floats:
+    """G at w = k W, between the nodes of the surface."""
+    face = _face()
+    stress = _stress_on_face(wave, poisson_ratio, sign)
+    weighted = stress * (wave * _surface().weights)
+    returned = weighted @ _stress_on_surface(wave, poisson_ratio, sign)
+    returned *= face.panels.weights
+    freed = np.linalg.solve(np.eye(len(returned)) - returned, stress)
+    rate = np.hypot(1.0, face.waves)
+    sinh, _, denominator, _ = _slab(rate * wave, sign)
+    compliance = 4 / np.pi * face.wave_weights / rate * sinh**2 / denominator
+    left, right = face.to_waves @ stress, face.to_waves @ freed
+    return np.asarray(left.T @ (compliance[:, None] * right))
+
+
+def _slab(x: Floats, sign: float) -> tuple[Floats, Floats, Floats, Floats]:
+    """Sinh x, cosh x and D times 2 or 4 powers of exp(-x), and exp(-2x); exchanged if odd."""
+    decay = np.exp(-2 * x)
+    denominator = 1 - decay**2 + sign * 4 * x * decay
+    if sign < 0:  # without cancellation
+        series = 4 * decay * x**3 * (2 / 3 + x**2 * (2 / 15 + x**2 * 4 / 315))
+        denominator = np.where(x < SMALL, series, denominator)
+    return 1 - sign * decay, 1 + sign * decay, denominator, decay
+
+
+def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
+    """T: normal stress at nodes of the face (rows) under lines at distances X from it (columns)."""
+    face, along = _face(), wave * _surface().places
+    depth = face.panels.places[:, None]
+    order_0, radial = _bessel_functions(wave)
+    # ∫ K_0 from Z on, not from ∫ until Z and its whole, which would lose digits far away.
+    tail = face.panels.weights @ order_0 - face.panels.integrals_until(order_0)
+    near = along**2 * depth * radial - (1 - 2 * poisson_ratio) * tail
+    zeta, cosines, sines = face.images(wave)
+    rate = np.hypot(1.0, zeta)
+    further = _images(rate, wave, along, sign)
+    far = (sines * ((rate**2 - 2 * poisson_ratio) / (zeta * rate))) @ further
+    far += depth * ((cosines * rate) @ further)
+    constant = (1 - 2 * poisson_ratio) * _images(np.ones(1), wave, along, sign)
+    return np.asarray(2 / np.pi * (near + far) - constant)
+
+
+def _images(rate: Floats, wave: float, along: Floats, sign: float) -> Floats:
+    """Sum of exp(-r D) over images beyond that about the face; shape (rates, places)."""
+    once = np.exp(-np.outer(rate, 2 * wave - along)) + np.exp(-np.outer(rate, 2 * wave + along))
+    return np.asarray(sign * once / (1 - sign * np.exp(-2 * rate * wave))[:, None])
+
+
+def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats:
+    """F: normal stress at distances X from a face (rows) under lines at its nodes (columns)."""
+    face, surface = _face(), _surface()
+    depth, along = face.panels.places, wave * surface.places[:, None]
+    order_0, radial = (each.T for each in _bessel_functions(wave))
+    until = wave * (surface.integrals_until(order_0) + ON_SURFACE * scipy.special.k0(depth))
+    tail = np.pi / 2 * np.exp(-depth) - until
+    near = depth**2 * along * radial - (1 - 2 * poisson_ratio) * tail
+    zeta, cosines, _ = face.images(wave)
+    rate = np.hypot(1.0, zeta)
+    x, xi = rate * wave, rate * (wave - along)
+    sinh, cosh, denominator, decay = _slab(x, sign)
+    own, other = np.exp(-along * rate), sign * decay * np.exp(along * rate)
+    half_sum = sinh * (own + other) / denominator
+    across = ((sinh + x * cosh) * (own + other) - xi * sinh * (own - other)) / denominator
+    along_z, along_y = (zeta / rate) ** 2, 2 * poisson_ratio / rate**2
+    slab = along_z * (2 * half_sum - across) + along_y * half_sum
+    one_face = (along_z * (1 - along * rate) + along_y) * own
+    return np.asarray(2 / np.pi * (near + (slab - one_face) @ cosines.T))
+
+
+@lru_cache(maxsize=WAVES)
+def _bessel_functions(wave: float) -> tuple[Floats, Floats]:
+    """K_0(R) and K_2(R)/R² between nodes of the face (rows) and of the surface (columns)."""
+    distance = np.hypot(_face().panels.places[:, None], wave * _surface().places)
+    order_0 = scipy.special.k0(distance)
+    order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
+    return order_0, np.asarray(order_2 / distance**2)
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """Places on the faces, in 1/k, and transforms between them and waves ζ."""
+
+    panels: LogPanels
+    image_waves: Floats
+    cosines: Floats  # Filon's weights of ∫ f cos(ζZ) dζ over the waves of images
+    sines: Floats  # likewise of sin(ζZ)
+    waves: Floats
+    wave_weights: Floats  # of an integral over the waves
+    to_waves: Floats  # weights of ∫ f cos(ζZ) dZ, shape (waves, nodes)
+
+    def images(self, wave: float) -> tuple[Floats, Floats, Floats]:
+        """Waves that images have at w = k W, with weights of their cosines and sines."""
+        kept = slice(0, int(np.searchsorted(self.image_waves, FAR / wave)))
+        return self.image_waves[kept], self.cosines[:, kept], self.sines[:, kept]
+
+
+@lru_cache(maxsize=1)
+def _surface() -> LogPanels:
+    """Panels of the distance from a face over W, up to the middle."""
+    return LogPanels.over(ON_SURFACE, 1.0, RATIO)
+
+
+@lru_cache(maxsize=1)
+def _face() -> Face:
+    panels = LogPanels.over(ON_FACE, DEEPEST, RATIO)
+    borders = _borders(OF_IMAGES[0], OF_IMAGES[1] / LOWEST_WAVE, IMAGE_RATIO)
+    waves = oscillation_weights(borders, NODES, panels.places)
+    of_faces = _borders(OF_FACES[0], OF_FACES[1] / ON_FACE, FACE_RATIO)
+    zeta, weights = panel_nodes(of_faces, NODES)
+    return Face(
+        panels,
+        panel_nodes(borders, NODES)[0],
+        waves.real.copy(),
+        waves.imag.copy(),
+        zeta,
+        weights,
+        _cosine_transform(panels, zeta),
+    )
+
+
+def _borders(first: float, last: float, ratio: float) -> Floats:
+    """Borders of panels from 0 to a wave."""
+    count = int(np.ceil(np.log(last / first) / np.log(ratio)))
+    return np.append(0.0, first * ratio ** np.arange(count + 1))
+
+
+def _cosine_transform(panels: LogPanels, zeta: Floats) -> Floats:
+    """Weights of ∫ f cos(ζZ) dZ at the nodes of panels of ln Z; shape (waves, nodes)."""
+    blocks = []
+    for begin, end in zip(panels.edges[:-1], panels.edges[1:], strict=True):
+        borders = np.exp(np.linspace(begin, end, PARTS + 1))
+        places = np.log(panel_nodes(borders, NODES)[0])
+        weights = oscillation_weights(borders, NODES, zeta).real
+        blocks.append(weights @ interpolation((2 * places - begin - end) / (end - begin)))
+    return np.hstack(blocks)

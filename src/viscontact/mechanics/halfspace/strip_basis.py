@@ -1,0 +1,142 @@
+"""Low-rank form of what the free faces of a body between two planes add, over rows of cells.
+
+Waves along y that are short against the body's length feel each face alone (`free_end`), longer
+ones both (`strip`). Those that are long against length and grid have a limit C/k, which displaces
+the whole surface, or tilts it, by
+
+    (C/π) ∫ cos(k y) exp(-k W)/k dk = -(C/2π) ln((y² + W²)/D²),
+
+where the distance D is free, as the body has no datum.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscontact.backend.arrays import Floats
+from viscontact.mechanics.halfspace.end_correction import FIRST_WAVE, NODES, EndBasis, row_means
+from viscontact.mechanics.halfspace.filon import panel_nodes
+from viscontact.mechanics.halfspace.free_end import HIGHEST, end_functions, pivoted_cholesky
+from viscontact.mechanics.halfspace.log_panels import LogPanels
+from viscontact.mechanics.halfspace.strip import HIGHEST_WAVE, strip_table
+
+#: Largest entry that a basis may leave out, relative to the largest one.
+NEGLECTED = 1e-8
+
+
+@dataclass(frozen=True)
+class StripRows:
+    """Rows of cells between two planes across x, of which one or both are free of stress."""
+
+    count: int
+    free: tuple[bool, bool]  # at -x and at +x; otherwise a plane about which pressure is even
+
+    @property
+    def half_length(self) -> float:
+        """Distance from a free face to the plane about which pressures are even or odd, in rows."""
+        return self.count / sum(self.free)
+
+    @property
+    def kinds(self) -> tuple[bool, ...]:
+        """Kinds of pressure about that plane: even, and between two free faces odd."""
+        return (False, True) if all(self.free) else (False,)
+
+    def from_face(self, rows: range) -> tuple[Floats, Floats]:
+        """Distances of rows from the nearer free face in whole rows, and their signs if odd."""
+        first = np.arange(rows.start, rows.stop, dtype=np.float64)
+        last = self.count - 1 - first
+        if not all(self.free):
+            return (first if self.free[0] else last), np.ones(len(rows))
+        return np.minimum(first, last), np.sign(first - last)
+
+
+@dataclass(frozen=True, eq=False)
+class StripBasis(EndBasis):
+    """Low-rank form of G in a strip, of which `products` are the part without exp(-k W) C/k."""
+
+    limit: Floats  # C times the cell's length, shape (rank, rank) [1]
+    half_length: float  # W [m]
+    datum: float  # D [m]
+
+    def coefficients(self, cells: int, edge: float) -> Floats:
+        """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
+        edges = (np.arange(cells + 1, dtype=np.float64) - 0.5) * edge
+        along, half = edges / self.half_length, self.half_length
+        # ∫ ln((y² + W²)/D²) dy / W over y/W.
+        integral = along * (np.log((edges**2 + half**2) / self.datum**2) - 2)
+        means = half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along))
+        regular = super().coefficients(cells, edge)
+        return np.asarray(regular - np.multiply.outer(means, self.limit))
+
+
+def strip_error(poisson_ratio: float, *, odd: bool) -> float:
+    """Part of the displacement by two ends that its operator may miss [-]."""
+    return strip_table(poisson_ratio, odd=odd).error + NEGLECTED
+
+
+def strip_basis(
+    poisson_ratio: float,
+    strip: StripRows,
+    rows: range,
+    cell_size: tuple[float, float],
+    width: float,
+    *,
+    odd: bool,
+) -> StripBasis:
+    """Low-rank form of what free faces add to even or odd pressures, for rows of a strip.
+
+    `width` is the grid's size along y, at which the limit of long waves displaces nothing [m].
+    """
+    table = strip_table(poisson_ratio, odd=odd)
+    half_length = strip.half_length * cell_size[0]
+    distance, signs = strip.from_face(rows)
+    signs = signs[:, None] if odd else np.ones((len(rows), 1))
+    means = signs * _cell_means(table.panels, distance, strip.half_length)
+    borders = _borders(half_length, width, cell_size[0])
+    waves, measures = panel_nodes(borders, NODES)
+    # Waves before the first panel go as a - b ln k, whose mean is that at a wave number.
+    waves, measures = np.append(borders[0] / np.e, waves), np.append(borders[0], measures)
+    long = waves * half_length < HIGHEST_WAVE
+    of_table = table.weights(waves[long] * half_length)
+    near = range(int(distance.min()), int(distance.max()) + 1)
+    functions, order = end_functions(poisson_ratio), distance.astype(int) - near.start
+    short = signs * np.stack(
+        [row_means(functions, k * cell_size[0], near)[order] for k in waves[~long]]
+    )
+    # All waves add up at y = 0, where the largest entries are left out.
+    total = means @ np.tensordot(measures[long] @ of_table, table.entries, axes=1) @ means.T
+    total += np.einsum("krm,ksm->rs", measures[~long, None, None] * short, short, optimize=True)
+    factors, _ = pivoted_cholesky(total.diagonal().copy(), lambda k: total[:, k], NEGLECTED)
+    basis = np.linalg.qr(factors)[0]
+    on_nodes, at_ends = basis.T @ means, basis.T @ short
+    entries = on_nodes @ table.entries @ on_nodes.T
+    products = [np.tensordot(of_table, entries, axes=1), at_ends @ at_ends.swapaxes(1, 2)]
+    scaled = waves * half_length
+    left_out = np.multiply.outer(np.exp(-scaled) / scaled, entries[-1])
+    # An even pressure is half of the sum of the pressures in both halves of the body.
+    scale = cell_size[0] / sum(strip.free)
+    return StripBasis(
+        basis,
+        borders,
+        scale * (np.concatenate(products) - left_out),
+        scale / half_length * entries[-1],
+        half_length,
+        float(np.hypot(half_length, width)),
+    )
+
+
+def _borders(half_length: float, width: float, edge: float) -> Floats:
+    """Borders of panels of wave numbers, in powers of two about that of the longest lone one."""
+    middle = HIGHEST_WAVE / half_length
+    lowest, highest = FIRST_WAVE / max(half_length, width), 2 * HIGHEST / edge
+    powers = np.arange(np.floor(np.log2(lowest / middle)), np.ceil(np.log2(highest / middle)) + 1)
+    return np.asarray(middle * 2.0**powers)
+
+
+def _cell_means(panels: LogPanels, distance: Floats, half_length: float) -> Floats:
+    """Weights of means over rows at distances from a face; the middle row may be half a row."""
+    near, far = distance / half_length, np.minimum((distance + 1) / half_length, 1.0)
+    between = panels.weights_until(far) - panels.weights_until(near)
+    return np.asarray(between / (far - near)[:, None])
