@@ -164,7 +164,7 @@ def test_depth_of_the_largest_stress_lies_between_the_depths_of_a_section() -> N
 
 def test_animations_are_not_among_the_figures() -> None:
     assert names_of("speed") == ["friction", "traction-creepage", "motion-profile"]
-    assert names_of("sweep") == ["response"]
+    assert names_of("sweep") == ["response", "pull-off"]
 
 
 def test_panel_has_numbers_in_si_and_an_axis_with_the_unit_in_which_they_are_drawn() -> None:

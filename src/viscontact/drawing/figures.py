@@ -172,6 +172,7 @@ TABLE = (
     ),
     FigureEntry("animation", takes=("times", "seconds", "fps"), is_animation=True),
     FigureEntry("response", of="sweep", takes=()),
+    FigureEntry("pull-off", of="sweep", takes=()),
 )
 
 

@@ -23,7 +23,7 @@ from viscontact.results.formatting import format_with_error_in
 from viscontact.results.largest_values import chief_scalars, compared_scalars, largest_values
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT
 from viscontact.results.sweep_axes import key_label, over_of, run_dims, varied_keys
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import variable_of
 from viscontact.results.verdicts import limits_of, stated_limits
 from viscontact.units.formatting import format_compact, readable_unit
 
@@ -188,9 +188,9 @@ def _scalar_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
     """Heading and cells of each chief scalar, of those that differ if there are any."""
     for name in compared_scalars(ds) or chief_scalars(ds):
         values, errors = (each.values.ravel() for each in largest_values(ds, name))
-        unit = readable_unit(SCALARS[name].units, values)
+        unit = readable_unit(variable_of(name).units, values)
         texts = [
             "" if np.isnan(value) else format_with_error_in(unit, float(value), float(error))
             for value, error in zip(values, errors, strict=True)
         ]
-        yield unit.label(SCALARS[name].label), texts
+        yield unit.label(variable_of(name).label), texts

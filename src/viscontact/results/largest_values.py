@@ -8,11 +8,16 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.results.shown_scalars import LONG, OF_LONG_CONTACTS
 from viscontact.results.sweep_axes import varied_keys
-from viscontact.results.variables import Place, error_name, shown_in
+from viscontact.results.variables import RUN_VALUES, Place, error_name, shown_in
 
 
 def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Largest magnitudes of a scalar in each run, and their errors; NaN without result or error."""
+    """Largest magnitudes of a scalar in each run, and their errors; NaN without result or error.
+
+    A value of a whole run is returned as it is.
+    """
+    if name in RUN_VALUES:
+        return ds[name], ds[error_name(name)]
     along = str(ds[name].dims[-1])  # time, speed or step
     size = abs(ds[name])
     at = size.fillna(-1.0).argmax(along)
@@ -31,7 +36,8 @@ def chief_scalars(ds: xr.Dataset) -> list[str]:
     """Names of the chief scalars of the finished runs of a sweep that are not varied."""
     given = {key.rpartition(".")[2] for key in varied_keys(ds)}
     found = []
-    for name in shown_in(Place.KEY, ds):
+    values = [name for name, each in RUN_VALUES.items() if name in ds and Place.KEY in each.places]
+    for name in [*values, *shown_in(Place.KEY, ds)]:
         if name in given or (name in OF_LONG_CONTACTS and not _has_long_contact(ds)):
             continue
         if _known_values(largest_values(ds, name)[0]).size:

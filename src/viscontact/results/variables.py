@@ -611,6 +611,29 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
+#: Values of a whole run of bodies that adhere, which are attributes of its result.
+RUN_VALUES = {
+    "pull_off_force": Variable(
+        *("N", "largest pull before contact is lost"),
+        label="Pull-off force",
+        has_error=True,
+        places=Place.KEY,
+        of=ADHESION,
+    ),
+    "pull_off_time": Variable(
+        *("s", "instant of the largest pull before contact is lost"),
+        label="Pull-off time",
+        has_error=True,
+        of=ADHESION,
+    ),
+}
+
+
+def variable_of(name: str) -> Variable:
+    """Variable of a scalar, or of a value of a whole run."""
+    return RUN_VALUES[name] if name in RUN_VALUES else SCALARS[name]
+
+
 #: Parts of all results whose scalars have errors.
 _PARTS = (MOTION, FRICTION, ROLLING, ADHESION)
 ALL_PARTS = (*_PARTS, *map(along_line, ("", *_PARTS)))

@@ -13,7 +13,7 @@ from closeness import close_to
 from synthetic_sweeps import hertz_sweep, listed
 from viscontact.drawing.content.key_axis import key_axis
 from viscontact.drawing.content.look import RED
-from viscontact.plot import response
+from viscontact.plot import pull_off, response
 from viscontact.results.largest_values import chief_scalars, compared_scalars, largest_values
 from viscontact.results.sweep_axes import varied_keys
 from viscontact.studies.sweep.axes import coordinate
@@ -196,3 +196,52 @@ def test_axis_of_a_key_has_the_unit_that_was_typed(
     axis = key_axis(xr.Dataset(coords={"temperature": column}), "temperature")
     assert axis.label == label
     assert axis.unit(column.values) == close_to(places, rel=1e-9)
+
+
+def pulled_off(key: str, values: object) -> xr.Dataset:
+    """Runs over a key, each of which was pulled off."""
+    columns = {
+        "state": ["done"] * 3,
+        "pull_off_force": [2e-6, 3e-6, 5e-6],
+        "pull_off_force_error": [1e-8, 2e-8, 3e-8],
+    }
+    columns = {name: (key, each) for name, each in columns.items()}
+    return xr.Dataset(columns | {"name": (key, list("abc"))}, {key: values, "time": [0.0]})
+
+
+def test_pull_off_is_drawn_with_its_errors_over_the_rate_in_the_sentences() -> None:
+    rates = [f"retract at {rate} until contact is lost" for rate in ("1 um/s", "0.1um/s", "10um/s")]
+    [axes] = pull_off(pulled_off("load.sentences[3]", rates)).axes
+    assert axes.get_xlabel() == "Retract at [µm/s]"
+    assert (axes.get_ylabel(), axes.get_xscale()) == ("Pull-off force [µN]", "log")
+    assert axes.lines[0].get_xdata() == close_to([0.1, 1, 10])
+    assert axes.lines[0].get_ydata() == close_to([3, 2, 5])
+    [bars] = axes.collections
+    heights = [float(np.ptp(path.vertices[:, 1])) for path in bars.get_paths()]
+    assert heights == close_to([0.04, 0.02, 0.06])
+
+
+def test_sweep_without_pull_off_has_no_figure_of_it() -> None:
+    with pytest.raises(ValueError, match="pull-off: no pull-off force differs"):
+        pull_off(hertz_sweep(load__force=FORCES))
+
+
+@pytest.mark.parametrize(
+    ("texts", "label", "numbers"),
+    [
+        (["hold for 1 s", "hold for 2 min", "hold for 1 h"], "Hold for [s]", [1, 120, 3600]),
+        (["[12 s, -3 um]", "[21 s, -3 um]", "[30 s, -3 um]"], "Load points 4 [s]", [12, 21, 30]),
+        (
+            ["hold force for 1 s", "hold height for 1 s", "hold force for 2 s"],
+            "Load points 4",
+            None,
+        ),
+        (["step to 1 N", "step to 1 um", "step to 2 N"], "Load points 4", None),
+        (["1 s in 2 s", "2 s in 3 s", "3 s in 4 s"], "Load points 4", None),
+    ],
+)
+def test_texts_that_differ_in_one_quantity_are_drawn_over_it(texts, label, numbers) -> None:
+    axes = pull_off(pulled_off("load.points[4]", texts)).axes[0]
+    assert axes.get_xlabel() == label
+    if numbers is not None:
+        assert axes.lines[0].get_xdata() == close_to(numbers)

@@ -10,13 +10,19 @@ import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.drawing.content.key_axis import is_number, key_axis, key_labels, places_on
+from viscontact.drawing.content.key_axis import (
+    is_number,
+    key_axis,
+    key_labels,
+    numbered_texts,
+    places_on,
+)
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.ordered_names import inks_of
 from viscontact.drawing.content.panel import Axis, Curve, Ink, Mark, MarkLook, Panel
 from viscontact.results.largest_values import compared_scalars, largest_values
 from viscontact.results.sweep_axes import over_of, run_dims, varied_keys
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import variable_of
 from viscontact.results.verdicts import limits_of
 from viscontact.units.formatting import format_compact, format_quantity
 
@@ -71,6 +77,7 @@ def swept_keys(ds: xr.Dataset, figure: str) -> SweptKeys:
         what = "scalar differs between the finished runs" if keys else "key is varied"
         raise ValueError(f"{figure}: no {what}; give a sweep of two finished runs or more")
     ds = ds.squeeze([dim for dim in run_dims(ds) if ds.sizes[dim] == 1], drop=True)
+    ds = ds.assign_coords(numbered_texts(ds, keys))
     if not set(keys) <= set(run_dims(ds)) or len(keys) > 2:
         return SweptKeys(ds, scalars, keys[:_MOST_KEYS], is_grid=False)
     numeric = [key for key in keys if is_number(ds, key)]
@@ -104,7 +111,7 @@ def response_note(swept: SweptKeys, *, has_bars: bool) -> str:
 
 def _panel(ds: xr.Dataset, name: str, key: str, groups: list[_RunGroup], look: Look) -> Panel:
     """Panel of groups of runs over a key, with the allowable value if it is near."""
-    variable, limit = SCALARS[name], limits_of(ds).get(name, np.nan)
+    variable, limit = variable_of(name), limits_of(ds).get(name, np.nan)
     values = np.concatenate([group.values for group in groups])
     unit, is_near = look.unit(variable.units, values), bool(limit <= _FAR * np.nanmax(values))
     text = f"allowable {format_compact(float(unit(limit)), 4)} {unit.symbol}".rstrip()

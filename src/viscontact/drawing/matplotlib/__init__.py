@@ -84,7 +84,7 @@ from viscontact.drawing.matplotlib.sweeps.heat_balance import (
     rolling_heating,
     rolling_temperature,
 )
-from viscontact.drawing.matplotlib.sweeps.response import response
+from viscontact.drawing.matplotlib.sweeps.response import pull_off, response
 from viscontact.drawing.matplotlib.sweeps.sensitivity import scatter_bands, tornado
 
 __all__ = [
@@ -143,6 +143,7 @@ __all__ = [
     "pressure_radial",
     "pressure_surface",
     "profiles",
+    "pull_off",
     "require_suffix",
     "response",
     "rolling_heating",

@@ -8,11 +8,11 @@ import numpy as np
 import plotly.graph_objects as go
 import xarray as xr
 
+from viscontact.drawing.content.key_axis import name_of
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import Axis, Curve, Mark, Panel
 from viscontact.drawing.content.response import response_panels, swept_keys
 from viscontact.drawing.plotly.parts import Part, drawn, literal, numbers
-from viscontact.results.sweep_axes import key_label
 
 #: Height of the crosses over that of the axes.
 _LOW = 0.02
@@ -21,7 +21,7 @@ _LOW = 0.02
 def responses(ds: xr.Dataset, look: Look = LIGHT) -> list[go.Figure]:
     """Draw each chief scalar of a sweep over its varied keys; ValueError if nothing differs."""
     swept = swept_keys(ds, "responses")
-    by = ", ".join(map(key_label, swept.keys[1:])) if swept.is_grid else ""
+    by = ", ".join(name_of(swept.ds, key) for key in swept.keys[1:]) if swept.is_grid else ""
     return [
         _figure(panel, look, by, name if swept.is_grid else f"{name}-{number}")
         for name in swept.scalars

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,6 +17,8 @@ from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.results.variables import (
     AXES,
     ERRORS,
+    RUN_VALUES,
+    error_name,
     scalar_attributes,
 )
 from viscontact.studies.sweep.axes import SweepAxes, sweep_axes
@@ -46,6 +49,7 @@ class JointLayout:
     columns: tuple[str, ...]  # names of the scalars and their errors that any run states
     fields: Mapping[str, Any] | None  # description of the fields that all finished runs share
     has_fields: bool  # True if any run has fields
+    values: list[Mapping[str, float]]  # of each whole run, with errors
 
     @property
     def row_dim(self) -> str:
@@ -122,11 +126,27 @@ class JointLayout:
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()
         }
-        frame = xr.Dataset(texts, self.axes.coords, self._attributes)
+        whole = self._run_values()
+        frame = xr.Dataset(texts | whole, self.axes.coords, self._attributes)
         if self.rows is not None:
             values = (self.over, self.rows, self.attributes(self.over))
             frame = frame.assign_coords({self.over: values})
         return frame
+
+    def _run_values(self) -> dict[str, tuple[Any, ...]]:
+        """Values of whole runs that any run states, with their errors, NaN where it does not."""
+        found = {}
+        for name, variable in RUN_VALUES.items():
+            if not any(name in each for each in self.values):
+                continue
+            bar = {
+                "units": variable.units,
+                "long_name": f"estimated error of: {variable.long_name}",
+            }
+            for column, about in ((name, variable.attributes), (error_name(name), bar)):
+                values = np.array([each.get(column, math.nan) for each in self.values])
+                found[column] = (self.axes.dims, values.reshape(self.axes.shape), about)
+        return found
 
     @property
     def _attributes(self) -> dict[str, str]:
@@ -160,12 +180,13 @@ def joint_layout(directory: str | Path, progress: Progress | None = None) -> Joi
     if not manifest.is_file():
         raise FileNotFoundError(f"no manifest {MANIFEST_NAME} of a sweep in {directory}")
     runs = list(read_manifest(manifest))
-    shared, states = _Shared(), []
+    shared, states, values = _Shared(), [], []
     for run in runs:
         state, outline = _state_and_outline(folder / run.directory)
         if outline is not None and not shared.add(outline):
             state = RunState(State.FAILED, f"it is over {outline.over}, and other runs are not")
         states.append(state)
+        values.append({} if outline is None else outline.values)
         if progress is not None:
             progress(run.run + 1, len(runs))
     columns = tuple(name for name in COLUMNS if name in shared.columns and name not in AXES)
@@ -184,6 +205,7 @@ def joint_layout(directory: str | Path, progress: Progress | None = None) -> Joi
         columns,
         fields,
         shared.has_fields,
+        values,
     )
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from viscontact.mechanics.state import Outcome
 from viscontact.results.line_digests import is_as_written, read_entries
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.results.stored_result import StoredFile
-from viscontact.results.variables import AXES, ERRORS, SCALARS
+from viscontact.results.variables import AXES, ERRORS, RUN_VALUES, SCALARS, error_name
 from viscontact.runs.directory.netcdf_layout import described_fields
 from viscontact.runs.directory.progress_log import reached_in
 from viscontact.studies.sweep.states import last_line
@@ -23,6 +24,8 @@ from viscontact.studies.sweep.states import last_line
 #: Columns of a table of scalars.
 COLUMNS = (*AXES, *SCALARS, *ERRORS)
 _FIRST = {f'{{"{name}"'.encode() for name in AXES}
+#: A column of results of bodies that adhere.
+_ADHERES = "least_pressure"
 _OUTCOMES = {outcome.name.lower(): outcome.value for outcome in Outcome}
 
 
@@ -36,6 +39,7 @@ class RunOutline:
     fields: dict[str, Any] | None  # as `described_fields` returns it
     verdict: str = ""  # the worst on the allowable values; empty without any
     decided_by: str = ""  # quantities with that verdict; empty if all have passed
+    values: Mapping[str, float] = field(default_factory=dict)  # of the whole run, with errors
 
 
 def run_outline(directory: Path) -> RunOutline:
@@ -47,12 +51,14 @@ def run_outline(directory: Path) -> RunOutline:
                 rows = np.array([_row_value(line, row) for row, line in enumerate(lines)])
             over = next(name for name in AXES if name in end)
             columns = frozenset(set(COLUMNS) & set(end))
-            judged = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
-            return RunOutline(over, rows, columns, end.get("fields"), *judged)
+            verdict, decided_by = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
+            values = _run_values(directory) if _ADHERES in columns else {}
+            return RunOutline(over, rows, columns, end.get("fields"), verdict, decided_by, values)
     with StoredFile(directory / RESULT_NAME, noted=False) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
-        return RunOutline(over, rows, frozenset(_stored_columns(file)), described_fields(file))
+        columns, values = frozenset(_stored_columns(file)), _values_of(file)
+        return RunOutline(over, rows, columns, described_fields(file), values=values)
 
 
 def run_scalars(directory: Path) -> Floats:
@@ -79,6 +85,18 @@ def _row_value(line: bytes, row: int) -> float:
     name, _, rest = line[:64].partition(b": ")
     number = rest.partition(b",")[0]
     return float(number) if name in _FIRST else reached_in(json.loads(line))
+
+
+def _run_values(directory: Path) -> dict[str, float]:
+    """Values of a run with their errors, which are attributes of its result alone."""
+    with StoredFile(directory / RESULT_NAME, noted=False) as file:
+        return _values_of(file)
+
+
+def _values_of(file: StoredFile) -> dict[str, float]:
+    stored = file.ncattrs()
+    names = [each for name in RUN_VALUES for each in (name, error_name(name)) if each in stored]
+    return {name: float(file.getncattr(name)) for name in names}
 
 
 def _axis_of(file: StoredFile) -> str:

@@ -9,7 +9,7 @@ from typing import IO, Any
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Numbers
-from viscontact.results.variables import SCALARS, Place, error_name, shown_in
+from viscontact.results.variables import RUN_VALUES, SCALARS, Place, error_name, shown_in
 from viscontact.studies.sweep.joint_layout import JointLayout, Progress
 from viscontact.units.formatting import column_heading
 
@@ -28,7 +28,10 @@ def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> N
         for run in range(runs.start, runs.stop):
             state = layout.states[run]
             about = (run, layout.runs[run].name, *(each[run].item() for each in along))
-            scalars = _scalars(layout, names, values[run - runs.start])
+            scalars = [
+                *_run_values(layout, run),
+                *_scalars(layout, names, values[run - runs.start]),
+            ]
             changed = [layout.runs[run].own_settings] if layout.has_changed else []
             judged = [state.verdict, state.decided_by] if layout.has_verdicts else []
             own = (*changed, *judged, state.message)
@@ -50,6 +53,9 @@ def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
     for key in layout.axes.keys:
         yield column_heading(key, layout.axes.coords[key].attrs.get("units", "1"))
     yield "state"
+    for name in _value_names(layout):
+        yield column_heading(name, RUN_VALUES[name].units)
+        yield column_heading(f"error of {name}", RUN_VALUES[name].units)
     for name in names:
         for column in (name, f"largest {name}"):
             yield column_heading(column, SCALARS[name].units)
@@ -60,6 +66,18 @@ def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
     if layout.has_verdicts:
         yield from ("verdict", "decided_by")
     yield "message"
+
+
+def _value_names(layout: JointLayout) -> list[str]:
+    """Names of the values of whole runs that any run states."""
+    return [name for name in RUN_VALUES if any(name in each for each in layout.values)]
+
+
+def _run_values(layout: JointLayout, run: int) -> Iterator[float | str]:
+    """Cells of the values of a whole run, each with its error."""
+    for name in _value_names(layout):
+        for column in (name, error_name(name)):
+            yield _cell(np.array([layout.values[run].get(column, np.nan)]), 0)
 
 
 def _scalars(layout: JointLayout, names: list[str], values: Floats) -> Iterator[float | str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from textwrap import fill
 
 import numpy as np
@@ -9,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viscontact.drawing.content.key_axis import key_axis
+from viscontact.drawing.content.key_axis import key_axis, name_of
 from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.content.response import (
     SweptKeys,
@@ -22,8 +23,7 @@ from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
 from viscontact.drawing.matplotlib.sweeps.key_axis import label_key, place_log_ticks
 from viscontact.results.largest_values import largest_values
-from viscontact.results.sweep_axes import key_label
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import variable_of
 from viscontact.units.formatting import readable_unit
 
 #: Width of a letter of a label [inch].
@@ -74,6 +74,51 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
     return figure
 
 
+def pull_off(results: xr.Dataset, *, width: Width | None = None) -> Figure:
+    """Draw the pull-off force of a sweep against its varied keys, as a rate of retraction.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        Runs of a sweep with adhesion, from `viscontact.open_many`.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The largest pull before contact is lost, with error bars, over one or two keys as in
+        `response`. Texts that differ in one quantity, as sentences of a load program with different
+        rates or times of rest, are drawn over this quantity.
+
+    Raises
+    ------
+    ValueError
+        If the runs have no pull-off forces that differ, or no key is varied.
+
+    Examples
+    --------
+    >>> rates = [f"retract at {rate} um/s until contact is lost" for rate in (1, 10, 100)]
+    >>> key = "load.sentences[3]"
+    >>> runs = {name: (key, values) for name, values in (
+    ...     ("state", ["done"] * 3), ("pull_off_force", [2e-6, 3e-6, 5e-6]),
+    ...     ("pull_off_force_error", [1e-8, 1e-8, 2e-8]),
+    ... )}
+    >>> figure = pull_off(xr.Dataset(runs, {key: rates, "time": [0.0]}))
+    >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
+    ('Retract at [µm/s]', 'Pull-off force [µN]')
+    """
+    swept = swept_keys(results, "pull-off")
+    if "pull_off_force" not in swept.scalars:
+        raise ValueError(
+            "pull-off: no pull-off force differs between the finished runs; give a sweep of bodies "
+            "that adhere and are pulled off"
+        )
+    alone = replace(swept, scalars=["pull_off_force"])
+    across = page_width(width, style.ONE_COLUMN)
+    return _panels(alone, across) if swept.is_grid else _points(alone, across)
+
+
 def _panels(swept: SweptKeys, across: float) -> Figure:
     """Maps or curves of a grid of one or two keys: a panel for each scalar."""
     ds, scalars, keys = swept.ds, swept.scalars, swept.keys
@@ -96,7 +141,7 @@ def _panels(swept: SweptKeys, across: float) -> Figure:
         label_key(axes, key_axis(ds, keys[0]), _letters(across, columns))
     if has_legend:
         named = named_keys(drawn[0].curves)
-        style.add_legend_below(figure, *named, columns=4, title=key_label(keys[1]))
+        style.add_legend_below(figure, *named, columns=4, title=name_of(ds, keys[1]))
     return figure
 
 
@@ -127,7 +172,7 @@ def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
     largest = largest_values(ds, name)[0].transpose(by, key).values
     missing = (ds["state"] != "done").transpose(by, key).values
     x, y = (axis.unit(ds[each].values) for axis, each in ((across, key), (up, by)))
-    unit = readable_unit(SCALARS[name].units, largest)
+    unit = readable_unit(variable_of(name).units, largest)
     values = np.ma.masked_invalid(unit(largest))
     drawn = axes.contourf(x, y, values, _CONTOURS, cmap="viridis")
     bar = style.figure_of(axes).colorbar(drawn, ax=axes)
@@ -140,4 +185,4 @@ def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
     if up.scale == "log":
         axes.set_yscale("log")
         place_log_ticks(axes.yaxis)
-    style.add_heading(axes, unit.label(SCALARS[name].label))
+    style.add_heading(axes, unit.label(variable_of(name).label))
