@@ -11,7 +11,12 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.case import read_case
 from viscontact.cli import main
+from viscontact.runs import forecast
+from viscontact.runs.preparation import prepared
+from viscontact.runs.solving import solve
+from viscontact.simulation.transient.stepper import Stepper
 
 SETTINGS = ("output.fields=none", "grid.shape=[48, 48]")
 UNTIL = "until contact is lost"
@@ -57,3 +62,28 @@ def test_pull_off_over_the_rate_rises_from_the_relaxed_body_to_a_limit(
         assert main(["plot", "rates", figure, "-o", f"{figure}.png"]) == 0
     assert main(["report", "rates"]) == 0
     assert "Pull-off force [µN]" in Path("rates/report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+def test_forecast_counts_steps_that_the_run_takes_within_a_factor_of_two(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With convolutions that take no time, the forecast is a number of steps; a clock may vary."""
+    case = tmp_path / "pull.yaml"
+    assert main(["example", "pull-off", "-o", str(case)]) == 0
+    given = read_case(case, ["grid.shape=[48, 48]", "output.errors=false"])
+    run = prepared(given).run
+    monkeypatch.setattr(forecast, "convolution_time", lambda _: 0.0)
+    marches = 2  # the first one finds the events
+    expected = run.seconds / (marches * forecast.ADHESIVE_OVERHEAD)
+    taken = 0
+
+    def counted(self: Stepper, *steps: object) -> object:
+        nonlocal taken
+        taken += 1
+        return accept(self, *steps)
+
+    accept = Stepper.accept
+    monkeypatch.setattr(Stepper, "accept", counted)
+    solve(run)
+    assert taken / 2 < expected < taken * 2
