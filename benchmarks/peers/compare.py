@@ -9,7 +9,10 @@ for programs that would need hours. The CPU time at an error is interpolated bet
 120 instants are compared together; the distances from a run with 16 times as many steps and from
 the exact solution of Lee and Radok are also printed.
 
-    python benchmarks/peers/compare.py [PROBLEM ...] [--programs NAME ...] [--points]
+Adhesion: five states of a rough surface, each solved anew at a given mean gap; pressures are
+compared together with those of the package at tolerance 1e-10.
+
+    python benchmarks/peers/compare.py [PROBLEM ...] [--programs NAME ...] [--points] [--rounds N]
 """
 
 from __future__ import annotations
@@ -19,7 +22,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -39,7 +42,7 @@ OUR_LADDER = (*LADDER, 1e-11)
 SHORT_LADDER, ONE_RUNG = (1e-5, 1e-7, 1e-9), (1e-7,)
 #: Number of cells, times steps, above which one tolerance is used.
 MANY = 2**20
-TIGHTEST = 1e-12
+TIGHTEST, TIGHTEST_ADHESIVE = 1e-12, 1e-10
 OURS = "viscontact"
 FULL = (
     "sphere512",
@@ -50,6 +53,7 @@ FULL = (
     "rough-periodic",
     "zener256",
     "zener512",
+    "sticky",
 )
 
 #: Limit all thread pools to one thread.
@@ -65,10 +69,13 @@ class Program:
     arguments: tuple[str, ...] = ()
     creep: bool | None = None  # None: both kinds
     any_cells: bool = True
+    adheres: bool = False
     ladder: tuple[float, ...] = LADDER
 
     def takes(self, problem: SharedProblem) -> str:
         """Reason why it cannot solve the problem; empty if it can."""
+        if problem.adhesion is not None and not self.adheres:
+            return "-"
         if self.creep is not None and problem.creeps != self.creep:
             return "-"
         if not self.any_cells and not problem.square_cells:
@@ -80,6 +87,8 @@ class Program:
     def ladder_for(self, problem: SharedProblem) -> tuple[float, ...]:
         """Tolerances for this program and problem."""
         cells = problem.shape[0] * problem.shape[1] * (STEPS if problem.creeps else 1)
+        if problem.adhesion is not None:
+            return tuple(each for each in self.ladder if each >= TIGHTEST_ADHESIVE)
         return ONE_RUNG if self.ladder is SHORT_LADDER and cells >= MANY else self.ladder
 
     @property
@@ -89,9 +98,9 @@ class Program:
 
 PROGRAMS = (
     Program(OURS, OURS, ("{problem}",), ladder=OUR_LADDER),
-    Program(f"{OURS}, solver", OURS, creep=False, ladder=OUR_LADDER),
+    Program(f"{OURS}, solver", OURS, creep=False, adheres=True, ladder=OUR_LADDER),
     Program("ASPHER", "aspher", any_cells=False),
-    Program("tamaas", "tamaas", ladder=SHORT_LADDER),
+    Program("tamaas", "tamaas", adheres=True, ladder=SHORT_LADDER),
     Program("tamaas, Maxwell", "tamaas", ("maxwell",), creep=True, ladder=(1e-5,)),
     Program("ContactMechanics", "contactmechanics", creep=False, ladder=SHORT_LADDER),
 )
@@ -132,6 +141,8 @@ def climb(
 def _displacement(problem: SharedProblem) -> float:
     """Approximate largest displacement [m], for a program whose tolerance is a length."""
     force, (along, across) = problem.force, problem.size
+    if problem.adhesion is not None:
+        return problem.adhesion[1]
     return force / max(along, across)  # u = F/(pi E* r), a contact's width from the force
 
 
@@ -139,7 +150,8 @@ def truth_of(name: str, problem: SharedProblem, limit: float) -> np.ndarray | No
     """Solution of the package at the tightest tolerance."""
     for program in PROGRAMS[:2]:
         if not program.takes(problem):
-            found = climb(program, name, problem, (TIGHTEST,), limit)
+            tightest = TIGHTEST if problem.adhesion is None else TIGHTEST_ADHESIVE
+            found = climb(program, name, problem, (tightest,), limit)
             if isinstance(found, Climb):
                 return found.pressures[0]
     return None
@@ -173,7 +185,9 @@ def exact(problem: SharedProblem) -> np.ndarray:
     return np.stack([np.interp(r, radii, contact.pressure(radii, float(t))) for t in RECORDED])
 
 
-def compare(name: str, programs: list[Program], limit: float, *, points: bool) -> str:
+def compare(
+    name: str, programs: list[Program], limit: float, *, points: bool, rounds: int = 1
+) -> str:
     """Print the table of a problem, and return the outcome in one line."""
     problem = PROBLEMS[name]()
     print(f"\n{problem.name}", flush=True)
@@ -183,9 +197,8 @@ def compare(name: str, programs: list[Program], limit: float, *, points: bool) -
     print(f"{'':20} {heading}" + ("  16x steps    exact" if far else ""))
     ours: Rungs | None = None
     peers: dict[str, list[Reading]] = {}
-    for program in programs:
-        own = truth is None or (problem.periodic and program.ladder_for(problem) != ONE_RUNG)
-        found = reached(program, name, problem, limit, own=own)
+    results = in_turns(programs, name, problem, limit, truth, rounds)
+    for program, (found, own) in results.items():
         if found is None:
             continue
         if isinstance(found, str):
@@ -204,6 +217,29 @@ def compare(name: str, programs: list[Program], limit: float, *, points: bool) -
     said = verdict(OURS, peers) or "nothing to compare with"
     print(said, flush=True)
     return f"{problem.name:24} {said}"
+
+
+def in_turns(
+    programs: list[Program],
+    name: str,
+    problem: SharedProblem,
+    limit: float,
+    truth: np.ndarray | None,
+    rounds: int,
+) -> dict[Program, tuple[Climb | str | None, bool]]:
+    """Results of programs that run in turns, with their least times, and if each is its truth."""
+    results: dict[Program, tuple[Climb | str | None, bool]] = {}
+    for _ in range(rounds):
+        for program in programs:
+            # With adhesion no other program reaches the tightest tolerance.
+            turned = problem.periodic and problem.adhesion is None
+            own = truth is None or (turned and program.ladder_for(problem) != ONE_RUNG)
+            found = reached(program, name, problem, limit, own=own)
+            earlier = results.get(program, (None, own))[0]
+            if isinstance(found, Climb) and isinstance(earlier, Climb):
+                found = replace(found, cpu=np.minimum(found.cpu, earlier.cpu))
+            results[program] = found, own
+    return results
 
 
 def reached(
@@ -232,13 +268,15 @@ def main() -> None:
     parser.add_argument("--programs", nargs="+", help=", ".join(p.name for p in PROGRAMS))
     parser.add_argument("--points", action="store_true", help="print the ladder, rung by rung")
     parser.add_argument("--limit", type=float, default=900.0, help="seconds for one program")
+    parser.add_argument("--rounds", type=int, default=1, help="turns of the programs")
     options = parser.parse_args()
     if unknown := [name for name in options.problems if name not in PROBLEMS]:
         parser.error(f"no problem is called {', '.join(unknown)}; there are {', '.join(PROBLEMS)}")
     wanted = [p for p in PROGRAMS if not options.programs or p.name in options.programs]
     print(f"one thread; peers that can be built: {', '.join(PACKAGES)}")
     said = [
-        compare(name, wanted, options.limit, points=options.points) for name in options.problems
+        compare(name, wanted, options.limit, points=options.points, rounds=options.rounds)
+        for name in options.problems
     ]
     print("\nall of them\n" + "\n".join(said))
 

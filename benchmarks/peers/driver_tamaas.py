@@ -48,6 +48,25 @@ def elastic(problem: Problem, tolerance: float) -> np.ndarray:
     return np.array(model.traction)
 
 
+def adhesive(problem: Problem, tolerance: float) -> np.ndarray:
+    """Solve each mean gap in the gaps, as is needed with adhesion."""
+    work, reach = problem["adhesion"].tolist()
+    by, found = tm.PolonskyKeerRey.gap, []
+    surface = np.ascontiguousarray(-problem["gap"])
+    for gap in problem["mean_gaps"].tolist():
+        model = made(problem, 1 / float(problem["instant"]))
+        solver = tm.PolonskyKeerRey(model, surface, tolerance, by, by)
+        solver.max_iter = MOST_ITERATIONS
+        attraction = tm.ExponentialAdhesionFunctional(surface)
+        attraction.parameters = {"rho": reach, "surface_energy": work}
+        solver.addFunctionalTerm(attraction)
+        reached = solver.solve(gap)
+        if not reached <= tolerance:
+            raise RuntimeError(f"stopped at {reached:g}")
+        found.append(np.array(model.traction))
+    return np.stack(found)
+
+
 def creep(problem: Problem, tolerance: float) -> np.ndarray:
     model = made(problem, 1.0)
     surface = np.zeros_like(problem["gap"])
@@ -99,6 +118,8 @@ def maxwell(problem: Problem, tolerance: float) -> np.ndarray:
 
 
 def solve(problem: Problem, tolerance: float) -> np.ndarray:
+    if "adhesion" in problem:
+        return adhesive(problem, tolerance)
     if "times" not in problem:
         return elastic(problem, tolerance)
     return (maxwell if "maxwell" in sys.argv[3:] else creep)(problem, tolerance)

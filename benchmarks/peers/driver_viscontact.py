@@ -10,6 +10,9 @@ from ladder import Problem, climb
 from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
 
 import viscontact as vc
+from viscontact.bodies.cohesive_laws import LAWS
+from viscontact.mechanics.contact.adhesion.equilibrium import solve_from, traction_at
+from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import solve_contact
 from viscontact.mechanics.contact.problem import ContactProblem
@@ -30,6 +33,23 @@ def elastic(problem: Problem, tolerance: float) -> np.ndarray:
     if not solution.converged:
         raise RuntimeError(f"stopped at {solution.residual:g}")
     return solution.found.pressure
+
+
+def adhesive(problem: Problem, tolerance: float) -> np.ndarray:
+    """The adhesive solver alone, for each mean gap from the attraction of undeformed bodies."""
+    law = LAWS["exponential"](*problem["adhesion"].tolist())
+    held, found = Constraints((None, None, None), (0.0, 0.0, 0.0)), []
+    for mean in problem["mean_gaps"].tolist():
+        gap = problem["gap"] - problem["gap"].mean() + mean
+        half_space = ContactDomain(_grid(gap.shape, problem))
+        scale = 1e-12 * float((problem["size"] / gap.shape).max())
+        posed = AdhesiveProblem(ContactProblem(gap, float(problem["instant"]), held, scale), law)
+        start = traction_at(posed, half_space, np.maximum(gap, 0.0))
+        solution = solve_from(posed, half_space, start, tolerance)
+        if solution is None or not solution.converged:
+            raise RuntimeError("not converged")
+        found.append(solution.found.pressure)
+    return np.stack(found)
 
 
 def run(case: SharedProblem, tolerance: float) -> np.ndarray:
@@ -58,6 +78,8 @@ def shared(name: str) -> SharedProblem:
 
 
 def solve(problem: Problem, tolerance: float) -> np.ndarray:
+    if "adhesion" in problem:
+        return adhesive(problem, tolerance)
     wanted = sys.argv[3:]
     return run(shared(wanted[0]), tolerance) if wanted else elastic(problem, tolerance)
 

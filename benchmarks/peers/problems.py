@@ -35,6 +35,8 @@ class SharedProblem:
     size: tuple[float, float]
     periodic: bool = False
     creeps: bool = False
+    adhesion: tuple[float, float] | None = None  # work [J/m²] and range [m] of an exponential law
+    mean_gaps: tuple[float, ...] = ()  # of states that are solved one by one, in place of a force
 
     @property
     def square_cells(self) -> bool:
@@ -57,6 +59,8 @@ class SharedProblem:
             "instant": np.array(law(0.0)),
             "periodic": np.array(self.periodic),
         }
+        if self.adhesion is not None:
+            arrays |= {"adhesion": np.array(self.adhesion), "mean_gaps": np.array(self.mean_gaps)}
         return arrays | self._in_time() if self.creeps else arrays
 
     def _in_time(self) -> dict[str, np.ndarray]:
@@ -119,6 +123,27 @@ def rough(cells: int, *, periodic: bool) -> SharedProblem:
     )
 
 
+def sticky(cells: int) -> SharedProblem:
+    """A rough surface that repeats and adheres, at five mean gaps of 2.5 to 0.7 times its height.
+
+    Slope 0.1, 2 to 32 waves on its side; up to a quarter of it is in contact.
+    """
+    height = self_affine(cells, wavelengths=(2, 32), seed=1)
+    height *= 0.1 / rms_slope(height)
+    grid = vc.Grid((cells, cells), (1.0, 1.0))
+    return SharedProblem(
+        f"sticky rough {cells}²",
+        vc.HeightMap(grid.x, grid.y, height),
+        UNIT,
+        np.nan,
+        (cells, cells),
+        (1.0, 1.0),
+        periodic=True,
+        adhesion=(6e-5, 3e-3),
+        mean_gaps=tuple((np.array([2.5, 2.0, 1.5, 1.0, 0.7]) * height.std()).tolist()),
+    )
+
+
 def rough_ball(cells: int) -> SharedProblem:
     """The same roughness on a paraboloid, with the contact inside the grid.
 
@@ -157,11 +182,13 @@ PROBLEMS: dict[str, Callable[[], SharedProblem]] = {
     "rough-periodic": partial(rough, 1024, periodic=True),
     "zener256": partial(sphere, 256, creeps=True),
     "zener512": partial(sphere, 512, creeps=True),
+    "sticky": partial(sticky, 256),
     # small problems to test the drivers
     "sphere128": partial(sphere, 128),
     "roller-small": partial(roller, 256, 64),
     "rough128": partial(rough, 128, periodic=False),
     "rough128-ball": partial(rough_ball, 128),
     "rough128-periodic": partial(rough, 128, periodic=True),
+    "sticky64": partial(sticky, 64),
     "zener64": partial(sphere, 64, creeps=True),
 }
