@@ -98,3 +98,15 @@ def test_the_trials_are_drawn_in_groups_over_the_parameter(table: xr.Dataset) ->
     np.testing.assert_allclose(drawn["cells of the case"], [[50.0, 200.0], [30.0, 150.0]])
     np.testing.assert_allclose(drawn["not feasible"], [[40.0, 140.0]])
     np.testing.assert_allclose(drawn["best"], [[30.0, 150.0]])
+
+
+def test_the_report_of_a_parameter_shows_what_is_bounded(table: xr.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    goal = table.assign_attrs(goal="indenter.crown_radius", best=1)
+    write_design_report(goal, {}, path, title="Crown", headline="least indenter.crown_radius")
+    found = rows(path.read_text(encoding="utf-8"))
+    assert ["Indenter crown radius", "50 mm", "20 mm", ""] in found
+    assert ["1", "coarse", "20 mm", "7.00 ± 0.10 mm", "feasible"] in found
+    (axes,) = trials(goal).axes
+    assert axes.get_ylabel() == "Contact length, along x [mm]"
+    assert "at most 18 mm" in {text.get_text() for text in axes.texts}

@@ -96,6 +96,8 @@ def _setting(text: str) -> tuple[KeyPath, Any]:
 
 def _set_value(data: Any, path: KeyPath, value: Any) -> str | None:
     """Set a value; return the reason if that is impossible."""
+    if whole := len(path) > 1 and _in_section(data, path):
+        return f"--set {dotted(path)}: did you mean {dotted(whole)}?"
     for position, step in enumerate(path):
         if not (_takes_keys(data, step) or _has_entry(data, step)):
             return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"
@@ -109,6 +111,13 @@ def _set_value(data: Any, path: KeyPath, value: Any) -> str | None:
 
 def _takes_keys(data: Any, step: str | int) -> bool:
     return isinstance(data, dict) and isinstance(step, str)
+
+
+def _in_section(data: Any, path: KeyPath) -> KeyPath:
+    """Path within the section of a case that has it, where it was left out; else empty."""
+    sections = [(name,) for name in data if isinstance(name, str)] if path[0] not in data else []
+    found = [(*name, *path) for name in sections if value_at(data, (*name, *path[:-1])) is not None]
+    return found[0] if len(found) == 1 else ()
 
 
 def _why_not(data: Any, step: str | int, path: KeyPath) -> str:

@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import xarray as xr
 
-from viscontact.drawing.content.design import parameters_of
+from viscontact.drawing.content.design import constraints_of, parameters_of, shown_scalars
 from viscontact.drawing.matplotlib.histories.history import compare_histories
 from viscontact.drawing.matplotlib.pressure.contact_curves import (
     compare_line_loads,
@@ -47,12 +47,12 @@ def write_design_report(
     results up to a year, or why there is none; `headline` is the sentence of the result. OSError if
     the file cannot be written.
     """
-    goals = _goals(table)
-    drawn = (_trials_figure(table, goal) for goal in goals)
+    scalars = shown_scalars(table)
+    drawn = (_trials_figure(table, scalar) for scalar in scalars)
     chapters = {
         "Before and after": [*_values(table), *before_and_after(runs)],
-        "Gain over a year of creep": gains_over_a_year(table, runs, years, goals),
-        "Trade-off": list(_trade_off(table)) if len(goals) > 1 else [],
+        "Gain over a year of creep": gains_over_a_year(table, runs, years, scalars),
+        "Trade-off": list(_trade_off(table)) if len(_goals(table)) > 1 else [],
         "Trials": [*drawn, *_trials(table)],
     }
     head = element("p", headline, class_="headline"), listed_notes(table)
@@ -67,15 +67,16 @@ def _values(table: xr.Dataset) -> Iterator[Element]:
         for key in parameters_of(table)
     ]
     for goal in _goals(table):
-        rows.extend(_values_of(table, goal, best))
-    for text in filter(None, str(table.attrs.get("constraints", "")).split("; ")):
+        if goal in table.data_vars:
+            rows.extend(_values_of(table, goal, best))
+    for text in constraints_of(table):
         name = text.split()[0]
         rows.append((text, *(_goal(table, name, trial) for trial in (0, best)), ""))
     yield text_table(("", "case", "best", "change"), rows)
 
 
 def _goals(table: xr.Dataset) -> list[str]:
-    """Names of the scalars that are to be least or largest."""
+    """Names of the scalars and parameters that are to be least or largest."""
     return str(table.attrs["goal"]).split()
 
 
@@ -130,9 +131,9 @@ def before_and_after(runs: Mapping[str, xr.Dataset]) -> Iterator[Element]:
             yield remark(f"{caption} Not drawn: {error}")
 
 
-def _trials_figure(table: xr.Dataset, goal: str) -> Element:
-    caption = f"{SCALARS[goal].label} in the worst scenario over each parameter."
-    return drawn_figure(trials(table.assign_attrs(goal=goal)), caption)
+def _trials_figure(table: xr.Dataset, scalar: str) -> Element:
+    caption = f"{SCALARS[scalar].label} in the worst scenario over each parameter."
+    return drawn_figure(trials(table, scalar=scalar), caption)
 
 
 def _trade_off(table: xr.Dataset) -> Iterator[Element]:
@@ -150,7 +151,7 @@ def _trials(table: xr.Dataset) -> Iterator[Element]:
     rows = []
     for number in range(table.sizes["trial"]):
         trial = table.isel(trial=number)
-        has_limit = not any(np.isposinf(trial[error_name(goal)]) for goal in _goals(table))
+        has_limit = not any(np.isposinf(trial[error_name(name)]) for name in shown_scalars(table))
         why = str(trial["message"].values) or ("not feasible" if has_limit else "no limit")
         state = "feasible" if trial["feasible"] else why
         rows.append((str(number), str(trial["level"].values), *_trial(table, number), state))
@@ -158,12 +159,12 @@ def _trials(table: xr.Dataset) -> Iterator[Element]:
 
 
 def _labels(table: xr.Dataset) -> list[str]:
-    """Headings of the parameters and of the goals."""
-    goals = (SCALARS[goal].label for goal in _goals(table))
-    return [*map(key_label, parameters_of(table)), *goals]
+    """Headings of the parameters and of the scalars."""
+    scalars = (SCALARS[name].label for name in shown_scalars(table))
+    return [*map(key_label, parameters_of(table)), *scalars]
 
 
 def _trial(table: xr.Dataset, number: int) -> list[str]:
-    """Parameters and goals of a trial."""
+    """Parameters and scalars of a trial."""
     values = (_parameter(table[key], number) for key in parameters_of(table))
-    return [*values, *(_goal(table, goal, number) for goal in _goals(table))]
+    return [*values, *(_goal(table, name, number) for name in shown_scalars(table))]

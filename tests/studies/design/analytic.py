@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from viscontact.studies.design import evaluated_trials
 from viscontact.studies.design.conclusions import notes_on
 from viscontact.studies.design.evaluated_trials import Searched, Trials
-from viscontact.studies.design.goals import Goal, constraints_of
+from viscontact.studies.design.goals import Goal, ScalarGoal, constraints_of, goals_of
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
-from viscontact.studies.design.trials import Trial, goal_name
+from viscontact.studies.design.trials import Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level
 from viscontact.studies.executors.executor_choice import ChosenWorkers
 from viscontact.studies.journal import Entry
@@ -41,7 +41,7 @@ class FunctionInPlaceOfARun:
         if not self.settings:
             return Entry(failure="the case itself is not tried")
         found = self.function({key: _number(text) for key, text in self.settings.items()})
-        names = {goal.scalar: goal_name(goal) for goal in self.goals}
+        names = {goal.name: goal.entries[0] for goal in self.goals if goal.entries}
         values = {names.get(name, name): [v.value, v.error] for name, v in found.items()}
         return Entry(values)
 
@@ -80,11 +80,20 @@ def searched(
     change: Mapping[str, object],
     *,
     least: bool = True,
+    parameter: str | None = None,
     constraints: Sequence[str] = (),
     **options: Any,
 ) -> tuple[Searched, Trial | None]:
     """Search for the best `force` of a function, and return the search and the best trial."""
-    goals = (Goal("force", least),)
+    goals: tuple[Goal, ...] = (ScalarGoal("force", least),)
+    if parameter is not None:
+        goals = goals_of(
+            parameter if least else None,
+            None if least else parameter,
+            "worst",
+            space_of(change),
+            {},
+        )
     trials = trials_of(function, goals, change, constraints=constraints, **options)
     trials.of_case({})
     search = evaluated_trials.searched(trials, Objective(goals))
@@ -99,12 +108,14 @@ def trials_of(
     constraints: Sequence[str] = (),
     budget: int = 60,
     is_coarse: bool = False,
+    on_coarse: Function | None = None,
     workers: int = 1,
 ) -> Trials:
     """Trials of a function in one scenario."""
 
     def runs_of(settings: Mapping[str, str], level: Level) -> list[FunctionInPlaceOfARun]:
-        return [FunctionInPlaceOfARun(f"{level} {settings}", function, goals, settings)]
+        chosen = (on_coarse if level == "coarse" else None) or function
+        return [FunctionInPlaceOfARun(f"{level} {settings}", chosen, goals, settings)]
 
     executor = Rounds() if workers > 1 else None
     evaluation = Evaluation(Budget(budget), ChosenWorkers(executor, workers))

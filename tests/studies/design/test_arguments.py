@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import viscontact as vc
+from closeness import close_to
 from viscontact.case import read_case
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.scenarios import scenarios_of
@@ -21,6 +23,16 @@ grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}
 output: {errors: false}
 """
 FORCE = {"load.force": ("0.01 N", "0.1 N")}
+
+
+LINE = """
+indenter: {shape: cylinder, radius: 10 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, line_load: 100 N/m, tilt_y: 0 rad}
+motion: {kind: steady, speed: 0.1 m/s, along: y}
+grid: {shape: [1, 128], size: [1 m, 2.4 mm], periodic: [true, false]}
+output: {errors: false}
+"""
 
 
 @pytest.fixture
@@ -62,6 +74,26 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "contradiction": (
         {"constraints": ["contact_width<=1mm", "contact_width>=2mm"]},
         "contact_width <= 1 mm and contact_width >= 2 mm contradict each other",
+    ),
+    "a key that is not changed": (
+        {"minimise": "indenter.radius"},
+        "minimise: indenter.radius: is a key that is not changed",
+    ),
+    "a parameter without a bound": (
+        {"minimise": "load.force"},
+        "minimise: load.force: is a parameter, and nothing but its range bounds it",
+    ),
+    "an instant of a parameter": (
+        {"minimise": "load.force", "at": "end", "constraints": ["contact_width<=1mm"]},
+        "at: is the place of a scalar",
+    ),
+    "least of words": (
+        {"change": {"material": ["pmma-paper", "epdm-70-25c"]}, "minimise": "material"},
+        "minimise: material: its values are no quantities",
+    ),
+    "a key without its section": (
+        {"change": {"radius": ("1 mm", "2 mm")}},
+        "radius",
     ),
     "instant": ({"at": 0.3}, "at: 300 ms is no instant of the case; the nearest one is 0 s"),
     "word": ({"at": "begin"}, "at: must be 'worst', 'end' or a time"),
@@ -168,6 +200,24 @@ def test_a_design_of_a_rolling_body_counts_the_resistance_at_a_speed(tmp_path: P
     assert float(found.best.friction_coefficient) == float(ds.friction_coefficient[0])
     with pytest.raises(ValueError, match="at: 500 mm/s is no speed of the case; the nearest one"):
         vc.design(path, change, minimise="friction_coefficient", at=0.5, workers=1)
+
+
+def test_the_largest_line_load_within_a_pressure_is_that_of_hertz(tmp_path: Path) -> None:
+    path = tmp_path / "line.yaml"
+    path.write_text(LINE)
+    found = vc.design(
+        path,
+        {"load.line_load": ("10 N/m", "5 kN/m", "log")},
+        maximise="load.line_load",
+        constraints=["peak_pressure<=0.2MPa"],
+        workers=1,
+    )
+    # p0 = sqrt(F E* / (pi R)) of a line contact (Hertz), E* = 4 G at nu = 1/2, elastic in motion.
+    exact = 0.2e6**2 * np.pi * 10e-3 / 4e6
+    assert float(found.best["load.line_load"]) == close_to(exact, rel=0.01)
+    assert found.remaining_gain < 2e-3 * exact
+    assert found.runs <= 14
+    assert "with peak_pressure" in str(found)
 
 
 @pytest.mark.parametrize(

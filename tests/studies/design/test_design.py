@@ -47,6 +47,26 @@ def test_the_largest_force_within_a_contact_width_follows_hertz(ball: Path) -> N
 
 
 @pytest.mark.slow
+def test_the_smallest_ball_within_a_pressure_is_that_of_hertz_under_the_larger_load(
+    ball: Path,
+) -> None:
+    found = vc.design(
+        ball,
+        {"indenter.radius": ("1 mm", "20 mm", "log")},
+        minimise="indenter.radius",
+        constraints=["peak_pressure<=0.3MPa"],
+        over={"load.force": ["0.05 N", "0.1 N"]},
+        workers=1,
+    )
+    # p0 = (6 F E*^2 / (pi^3 R^2))^(1/3) (Hertz), with the larger force.
+    radius = np.sqrt(6 * 0.1 * MODULUS**2 / (np.pi**3 * 0.3e6**3))
+    assert float(found.best["indenter.radius"]) == close_to(radius, rel=0.02)
+    assert found.deciding == 1
+    assert found.runs <= 2 * 14
+    assert f"least indenter.radius: {found.settings['indenter.radius']}" in str(found)
+
+
+@pytest.mark.slow
 def test_the_worst_scenario_decides(ball: Path) -> None:
     found = vc.design(
         ball,

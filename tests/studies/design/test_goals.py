@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from viscontact.studies.design.goals import Constraint, Goal, constraints_of
+from viscontact.studies.design.goals import Constraint, ScalarGoal, constraints_of
 from viscontact.studies.design.scenarios import Deviation, Scenario
 from viscontact.studies.design.trade_off import compromises, not_dominated
-from viscontact.studies.design.trials import ScenarioResult, Trial, goal_name
+from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.scalars import Value
 
 
@@ -36,9 +36,9 @@ def test_a_trial_that_is_equal_in_one_goal_and_worse_in_another_is_dominated() -
 
 
 def test_a_value_without_a_limit_is_the_worst_of_the_scenarios() -> None:
-    goal, limitless = Goal("peak_pressure", least=True), Value(1.0, math.inf)
+    goal, limitless = ScalarGoal("peak_pressure", least=True), Value(1.0, math.inf)
     values = [Value(2.0, 0.1), limitless, Value(3.0, 0.1)]
-    results = tuple(ScenarioResult({goal_name(goal): each}) for each in values)
+    results = tuple(ScenarioResult({goal.entries[0]: each}) for each in values)
     assert Trial({}, "case", results).worst(goal) == limitless
     assert Trial({}, "case", results[::2]).worst(goal) == values[2]
     assert Trial({}, "case", (*results, ScenarioResult({}, "failed"))).failure == "failed"

@@ -18,7 +18,7 @@ from closeness import close_to
 from viscontact.studies.design.conclusions import why_infeasible
 from viscontact.studies.design.evaluated_trials import Searched, Trials
 from viscontact.studies.design.evaluated_trials import searched as searched_among
-from viscontact.studies.design.goals import Goal
+from viscontact.studies.design.goals import ScalarGoal
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.scores import Foreseen, Point, Score
@@ -256,7 +256,7 @@ def test_trials_that_fail_do_not_end_the_search() -> None:
 
 
 def test_the_worst_scenario_decides() -> None:
-    goals = (Goal("force", True),)
+    goals = (ScalarGoal("force", True),)
 
     def runs_of(settings: Mapping[str, str], level: Level) -> list[FunctionInPlaceOfARun]:
         # The larger one of 1 + x and 3 - x in two scenarios is least at x = 1.

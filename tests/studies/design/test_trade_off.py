@@ -14,12 +14,12 @@ from tests.studies.design.test_arguments import BALL
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.studies.design.goals import Goal
+from viscontact.studies.design.goals import ScalarGoal
 from viscontact.studies.design.trade_off import costs_of, not_dominated, searched_trade_off
 from viscontact.studies.scalars import Value
 
 TWO = {"load.x": ("0", "1"), "load.y": ("-1", "1")}
-GOALS = (Goal("force", True), Goal("approach", True))
+GOALS = (ScalarGoal("force", True), ScalarGoal("approach", True))
 
 
 def parabolas(v: Mapping[str, float]) -> dict[str, Value]:

@@ -55,13 +55,14 @@ Minimised = Annotated[
     list[str] | None,
     typer.Option(
         "--minimise",
-        metavar="SCALAR",
-        help="Scalar to make least: peak_pressure; two or three scalars give a trade-off.",
+        metavar="SCALAR|KEY",
+        help="Scalar to make least, as peak_pressure, or a parameter of --change, as "
+        "material.layers[1].thickness; two or three give a trade-off.",
     ),
 ]
 Maximised = Annotated[
     list[str] | None,
-    typer.Option("--maximise", metavar="SCALAR", help="Scalar to make largest, likewise."),
+    typer.Option("--maximise", metavar="SCALAR|KEY", help="Make largest, likewise."),
 ]
 Profile = Annotated[
     str | None,
@@ -103,7 +104,7 @@ def design(
     clear_of_ends: ClearOfEnds = False,
     runs: Runs = None,
 ) -> None:
-    """Find the values of a case for which a scalar is least or largest.
+    """Find the values of a case for which a scalar, or one of them, is least or largest.
 
     The search begins on coarse cells; the best trials are computed on the cells of the case. DIR
     gets best.yaml, trials.nc and report.html. With --profile free, the drop curve of a roller is

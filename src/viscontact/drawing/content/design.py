@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
 
 import numpy as np
@@ -16,11 +17,13 @@ from viscontact.drawing.content.panel import (
     Axis,
     Curve,
     Ink,
+    Mark,
     MarkLook,
     Panel,
 )
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import readable_unit
+from viscontact.units.parsing import parse_any_quantity
 
 #: Largest drop that is drawn, as a multiple of that of most of the line: this part of its length.
 _MOST, _INNER = 4.0, 0.9
@@ -31,9 +34,24 @@ def parameters_of(table: xr.Dataset) -> list[str]:
     return [str(name) for name in table.coords if name not in ("trial", "scenario")]
 
 
-def trial_panels(table: xr.Dataset) -> list[Panel]:
-    """Panels of the goal, of several the first one, over each parameter."""
-    y, values, errors = _scalar(table, str(table.attrs["goal"]).split()[0])
+def shown_scalars(table: xr.Dataset) -> list[str]:
+    """Scalars of a design: its goals, and where those are parameters, also those of constraints."""
+    goals = str(table.attrs["goal"]).split()
+    bounded = [text.split()[0] for text in constraints_of(table)]
+    wanted = [*goals, *bounded] if any(goal in table.coords for goal in goals) else goals
+    return [name for name in dict.fromkeys(wanted) if name in table.data_vars]
+
+
+def constraints_of(table: xr.Dataset) -> list[str]:
+    """Constraints of a design, as ``peak_pressure <= 1.2 MPa``."""
+    return [text for text in str(table.attrs.get("constraints", "")).split("; ") if text]
+
+
+def trial_panels(table: xr.Dataset, scalar: str | None = None) -> list[Panel]:
+    """Panels of a scalar over each parameter: by default the first goal, or what bounds it."""
+    name = scalar or shown_scalars(table)[0]
+    y, values, errors = _scalar(table, name)
+    bounds = tuple(_bounds_of(table, name))
     feasible, is_coarse = table["feasible"].values.astype(bool), table["level"].values == "coarse"
     best = np.arange(values.size) == int(table.attrs["best"])
     groups: tuple[tuple[Bools, str, Ink, MarkLook], ...] = (
@@ -54,8 +72,17 @@ def trial_panels(table: xr.Dataset) -> list[Panel]:
             for chosen, name, ink, look in groups
             if chosen.any()
         )
-        panels.append(Panel(x, y, tuple(curves)))
+        panels.append(Panel(x, y, tuple(curves), marks=bounds))
     return panels
+
+
+def _bounds_of(table: xr.Dataset, name: str) -> Iterator[Mark]:
+    """Lines at the bounds of a scalar."""
+    for text in constraints_of(table):
+        scalar, sign, bound = text.split(maxsplit=2)
+        if scalar == name:
+            words = f"{'at most' if sign == '<=' else 'at least'} {bound}"
+            yield Mark(parse_any_quantity(bound)[0], "y", words, "dashed")
 
 
 def trade_off_panels(table: xr.Dataset) -> list[Panel]:
@@ -79,8 +106,10 @@ def trade_off_panels(table: xr.Dataset) -> list[Panel]:
 
 
 def _scalar(table: xr.Dataset, name: str) -> tuple[Axis, Floats, Floats]:
-    """Axis of a scalar, its values and their errors."""
+    """Axis of a scalar or of a parameter, its values and their errors."""
     values = table[name].values
+    if name in table.coords:
+        return key_axis(table, name), values, np.zeros(values.size)
     axis = Axis.of(SCALARS[name].label, SCALARS[name].units, values)
     return axis, values, table[error_name(name)].values
 

@@ -8,18 +8,21 @@ from collections.abc import Iterator, Sequence
 from viscontact.results.formatting import format_with_error
 from viscontact.results.variables import SCALARS
 from viscontact.studies.design.evaluated_trials import Searched, Trials
-from viscontact.studies.design.goals import Constraint
+from viscontact.studies.design.goals import Constraint, ParameterGoal
 from viscontact.studies.design.trials import Trial
 from viscontact.units.formatting import format_quantity
 
 #: Part of a range from its end within which an optimum lies at the bound, and from a trial without
 #: a limit within which it lies beside it.
 AT_BOUND, BESIDE = 0.01, 0.02
+#: Relative excess of a scalar that is next to its bound, and number of its errors by which it
+#: differs at least in the trial that gives its slope.
+NEXT_TO_BOUND, APART_ERRORS = 0.01, 3
 
 
 def why_infeasible(trials: Trials) -> str:
     """Reason why no trial is feasible, with the closest one."""
-    names = " or the ".join(goal.scalar for goal in trials.goals)
+    names = " or the ".join(goal.name for goal in trials.goals)
     limits, tried = trials.constraints, trials.tried()
     begin = f"no feasible design in {trials.budget.runs} runs"
     done = [trial for trial in tried if not trial.failure]
@@ -48,6 +51,8 @@ def notes_on(best: Trial, before: Trial, search: Searched) -> Iterator[str]:
     yield from _at_sharp_end(best, search)
     for limit in trials.constraints:
         yield from _undecided(best, limit)
+        if search.objective.is_known:
+            yield from _error_of_parameter(best, limit, search)
     if search.is_cut_short:
         yield f"{trials.budget.most} runs are too few to search until the gain is within the error"
     if before.is_feasible(trials.goals, trials.constraints):
@@ -79,15 +84,18 @@ def _at_bounds(best: Trial, search: Searched) -> Iterator[str]:
     others = [each for each in trials.tried(best.level) if each is not best]
     for number in trials.space.ranges:
         part, key = own[number], trials.space.parameters[number].key
+        which = "upper" if part > 0.5 else "lower"
+        begin = f"the optimum lies at the {which} bound of {key}, {best.settings[key]}"
+        goal = search.objective.goals[0]
+        if isinstance(goal, ParameterGoal) and goal.name == key:
+            if part in (0.0, 1.0):
+                yield f"{begin}, where all constraints are kept: a wider range has a better one"
+            continue
         inside = [each for each in others if points[each.key][number] != part]
         if min(part, 1 - part) > AT_BOUND or not inside:
             continue
         nearest = min(inside, key=lambda each: math.dist(points[each.key], own))
-        which = "upper" if part > 0.5 else "lower"
-        yield (
-            f"the optimum lies at the {which} bound of {key}, {best.settings[key]}: "
-            f"{_next_to_bound(nearest, best, search)}"
-        )
+        yield f"{begin}: {_next_to_bound(nearest, best, search)}"
 
 
 def _next_to_bound(nearest: Trial, best: Trial, search: Searched) -> str:
@@ -98,10 +106,10 @@ def _next_to_bound(nearest: Trial, best: Trial, search: Searched) -> str:
         return f"the nearest trial, at {where}, has no limit"
     if not nearest.is_feasible(trials.goals, trials.constraints):
         return f"the nearest trial, at {where}, does not keep the constraints"
-    units, verb = SCALARS[goal.scalar].units, "falls" if goal.least else "grows"
+    units, verb = goal.units, "falls" if goal.least else "grows"
     value, own = (format_quantity(each.worst(goal).value, units) for each in (nearest, best))
     return (
-        f"the {goal.scalar} {verb} up to there, from {value} at {where} to {own}, and a wider "
+        f"the {goal.name} {verb} up to there, from {value} at {where} to {own}, and a wider "
         f"range may give a better one; if it {verb} for ever, there is no optimum"
     )
 
@@ -124,7 +132,7 @@ def _beside_no_limit(best: Trial, search: Searched) -> Iterator[str]:
         if nearest is not None and distance(nearest) <= BESIDE:
             yield (
                 f"the optimum lies beside values without a limit: at {_where(nearest)} the "
-                f"contact reaches an edge of the body, where the {goal.scalar} grows as the cells "
+                f"contact reaches an edge of the body, where the {goal.name} grows as the cells "
                 "get smaller"
             )
 
@@ -142,7 +150,7 @@ def _at_sharp_end(best: Trial, search: Searched) -> Iterator[str]:
     clear = min(found, key=lambda each: cost(each).value, default=None)
     if clear is not None:
         (goal,) = search.objective.goals
-        value = format_quantity(clear.worst(goal).value, SCALARS[goal.scalar].units)
+        value = format_quantity(clear.worst(goal).value, goal.units)
         yield (
             f"the contact of the best trial reaches a sharp end; of the trials whose contact does "
             f"not, the best has {value}, at {_where(clear)}; clear_of_ends "
@@ -156,3 +164,20 @@ def _undecided(best: Trial, limit: Constraint) -> Iterator[str]:
     if not excess > found.error and not math.isnan(found.error):
         value = format_with_error(found.value, found.error, SCALARS[limit.scalar].units)
         yield f"{limit} is kept within the error only: {value}"
+
+
+def _error_of_parameter(best: Trial, limit: Constraint, search: Searched) -> Iterator[str]:
+    """Yield what the error of a scalar next to its bound is in terms of the only parameter."""
+    (goal,), found, trials = search.objective.goals, best.extreme(limit), search.trials
+    error, is_next = found.error, abs(limit.violation(found.value)) <= NEXT_TO_BOUND
+    if len(trials.space.keys) > 1 or not (math.isfinite(error) and error > 0 and is_next):
+        return
+    own, slopes = best.worst(goal).value, []
+    for each in trials.tried():
+        apart, change = each.worst(goal).value - own, each.extreme(limit).value - found.value
+        if abs(change) >= APART_ERRORS * error:
+            slopes.append((abs(apart), abs(apart / change)))
+    if slopes:
+        text = format_quantity(min(slopes)[1] * error, goal.units, 2)
+        bar = format_quantity(error, limit.units, 2)
+        yield f"the error of {limit.scalar}, ±{bar}, is one of about ±{text} of {goal.name}"

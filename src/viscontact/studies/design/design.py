@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from viscontact.case import Case
+from viscontact.case.aliases import value_at
 from viscontact.case.errors import dotted
+from viscontact.case.overrides import key_path
 from viscontact.studies.case_values import (
     case_path,
     case_with,
@@ -22,7 +24,7 @@ from viscontact.studies.case_values import (
 from viscontact.studies.cells import coarse_cells
 from viscontact.studies.design.conclusions import notes_on, notes_on_trade_off, why_infeasible
 from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
-from viscontact.studies.design.goals import Goal, constraints_of, goals_of
+from viscontact.studies.design.goals import constraints_of, goals_of, require_bounds
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.result import DesignResult, table_of
@@ -33,7 +35,7 @@ from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, ev
 from viscontact.studies.executors.executor_choice import chosen_workers
 from viscontact.studies.infeasible import InfeasibleError
 from viscontact.studies.journal import journal_of
-from viscontact.studies.scalars import require_fluid, require_instant
+from viscontact.studies.scalars import At, require_fluid, require_instant
 from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
 from viscontact.units.numbers import whole
@@ -64,23 +66,24 @@ def design(  # noqa: PLR0913
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> DesignResult:
-    """Find the values of some parameters of a case for which a scalar is least or largest.
+    """Find the values of some parameters of a case for which a scalar or one of them is best.
 
     Parameters
     ----------
     case : path-like
-        Case file, YAML or TOML, of a run over time.
+        Case file, YAML or TOML.
     change : mapping
         Parameters by dotted key, at most eight: a tuple of two bounds, and ``"log"`` for a
         logarithmic scale, as ``{"indenter.crown_radius": ("20 mm", "2 m", "log")}``; or a list of
         values to choose from, as ``{"material": ["pmma-paper", "epdm-70-25c"]}``.
     minimise, maximise : str or sequence of str, optional
-        Name of the scalar whose magnitude is to be least, or largest. Two or three scalars give a
-        trade-off: the trials of which no other one is better in one scalar and as good in the
-        others.
+        Name of the scalar whose magnitude is to be least, or largest; or key of a parameter of
+        `change`, as ``"material.layers[1].thickness"`` for the thinnest cover that keeps the
+        constraints. Two or three names give a trade-off: the trials of which no other one is better
+        in one of them and as good in the others.
     at : {"worst", "end"} or float, optional
-        Instant of the scalar: that of its worst value in the run, the last one, or a time of the
-        run [s].
+        Instant of the scalar: that of its worst value in the run, the last one, a time of the run
+        [s], or in steady motion a speed [m/s]. Constraints are kept at all of them.
     over : mapping, optional
         Scenarios: values of some keys, as ``{"load.eccentricity_x": ["0 mm", "5 mm"]}``; all
         combinations of several keys. The scalar counts in the worst one.
@@ -146,6 +149,12 @@ def design(  # noqa: PLR0913
     value of each scalar, then for compromises of different weights, by the augmented weighted
     Chebyshev distance (Steuer and Choo 1983), which also finds curves that are not convex.
 
+    A parameter is known without a run, so that one that is to be least or largest has no error, and
+    values that cannot be better than a feasible one are not run. Of a single range, the first
+    change of sign of the excess over the bounds is searched from the better end on, at five points
+    at first, and enclosed by a bracket: `DesignResult.remaining_gain` is its width. A range beyond
+    it whose bounds are kept between two of these points is not excluded.
+
     Examples
     --------
     >>> import tempfile
@@ -168,15 +177,16 @@ def design(  # noqa: PLR0913
     True
     """
     path, fixed = case_path(case), texts(settings)
-    goals, limits = goals_of(minimise, maximise, at), constraints_of(constraints)
-    space = space_of(change)
+    space, limits = space_of(change), constraints_of(constraints)
     others = {"over": tuple(over or ()), "settings": tuple(fixed)}
     refuse_repeated(change=space.keys, **others)
     refuse_repeated(scatter=tuple(scatter or ()), **others)
-    budget = Budget(whole("runs", _default_runs(len(goals)) if runs is None else runs, 1))
     values = _own_values(case_with(path, fixed), (*space.keys, *(scatter or {})))
+    goals = goals_of(minimise, maximise, at, space, values)
+    require_bounds(goals, limits)
+    budget = Budget(whole("runs", _default_runs(len(goals)) if runs is None else runs, 1))
     scenarios = scenarios_of(over, scatter, space, values)
-    own = _check_case(path, space, scenarios, fixed, goals[0])
+    own = _check_case(path, space, scenarios, fixed, at)
     arguments = {
         **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
         **{"over": repr(over), "scatter": repr(scatter or None)},
@@ -184,7 +194,7 @@ def design(  # noqa: PLR0913
         **{"clear_of_ends": bool(clear_of_ends)},
     }
     cells = coarse_cells(own)
-    require_fluid(own, [*(each.scalar for each in goals), *(each.scalar for each in limits)])
+    require_fluid(own, [*(each.name for each in goals), *(each.scalar for each in limits)])
     fields = fields_setting(own)
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, cells, fields, bool(clear_of_ends))
     journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
@@ -224,7 +234,7 @@ def _search(
     else:
         notes = (*known, *notes_on(best, before, searches[0]))
     number = made.index(best)
-    about = {"goal": " ".join(goal.scalar for goal in goals), "at": str(goals[0].at)}
+    about = {"goal": " ".join(goal.name for goal in goals), "at": str(goals[0].at)}
     about["sense"] = " ".join("least" if goal.least else "largest" for goal in goals)
     about |= {"constraints": "; ".join(map(str, limits)), "notes": "\n".join(notes)}
     left = math.nan if is_trade_off else searches[0].remaining_gain
@@ -236,8 +246,10 @@ def _search(
         of_case.case,
         of_case.settings,
         goals,
+        limits,
         number,
         tuple(of_case.scenarios),
+        best.deciding(goals[0], limits),
     )
 
 
@@ -268,7 +280,7 @@ def _check_case(
     space: Space,
     scenarios: Sequence[Scenario],
     fixed: Mapping[str, str],
-    goal: Goal,
+    at: At,
 ) -> Case:
     """Check the case at its own values, at the bounds and in all scenarios, and return it."""
 
@@ -276,7 +288,7 @@ def _check_case(
         return case_with(path, {**fixed, **scenario.settings(trial)})
 
     own = read(scenarios[0], {})
-    require_instant(own, goal.at)
+    require_instant(own, at)
     for corner in space.corners():
         for each in scenarios:
             if each is scenarios[0] or each.deviations:
@@ -290,9 +302,8 @@ def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
     """Values of some keys in the case, where they are plain."""
     found = {}
     for key in keys:
-        value: Any = case.document.data
-        for step in key.split("."):
-            value = value.get(step) if isinstance(value, dict) else None
+        path = key_path(key)
+        value = case.document.of_aliases.get(path, value_at(case.document.data, path))
         if isinstance(value, str | int | float):
             found[key] = str(value)
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.objectives import Objective, PenalisedCost
 from viscontact.studies.design.scores import Foreseen, Point, Score
 from viscontact.studies.design.search import search
+from viscontact.studies.design.threshold_search import threshold
 from viscontact.studies.design.trials import ScenarioResult, Trial
 from viscontact.studies.evaluation import Budget, Evaluation, Level, StudyRun
 from viscontact.studies.journal import Entry
@@ -108,12 +110,16 @@ def searched(trials: Trials, objective: Objective, *, held: int = 0) -> Searched
     def score(trial: Trial) -> Score:
         return cost.score(trial, trials.points[trial.key])
 
-    found = search(
-        *(evaluate, trials.space, trials.budget, trials.levels),
-        size=trials.size,
-        held=held,
-        known=list(map(score, trials.tried())),
-    )
+    def known(point: Point) -> float:
+        return objective.known(trials.space.settings(point))
+
+    shared: dict[str, Any] = {"held": held, "known": list(map(score, trials.tried()))}
+    budget, levels = trials.budget, trials.levels
+    if objective.is_known and len(trials.space.keys) == len(trials.space.ranges) == 1:
+        found = threshold(evaluate, known, budget, levels, **shared)
+    else:
+        shared["objective"] = known if objective.is_known else None
+        found = search(evaluate, trials.space, budget, levels, size=trials.size, **shared)
     best = None if found.best is None else trials.made[found.best.key]
     return Searched(trials, objective, best, found.is_cut_short, found.remaining_gain)
 

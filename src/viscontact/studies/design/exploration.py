@@ -36,6 +36,8 @@ class Exploration:
     most: int  # runs
     is_hopeless: Callable[[int], bool]  # after some trials, if none is feasible
     has_feasible: Callable[[], bool]
+    #: Least cost of a point that cannot be better than a feasible one; None if it is to be run.
+    least_cost: Callable[[Point], float | None] = lambda point: None
     _known: dict[Point, float] = field(default_factory=dict)  # costs so far
     _keys: set[Any] = field(default_factory=set)
     _mark: float = math.inf  # best cost when something was gained last
@@ -53,6 +55,10 @@ class Exploration:
 
     def _cost(self, given: Any) -> float:
         point = tuple(map(float, np.ravel(given)))
+        least = self.least_cost(point)
+        if least is not None:
+            self._known[point] = least
+            return least
         score = self.score_at(point, self._next_points)
         self._known[point] = score.cost
         self._keys.add(score.key)

@@ -15,7 +15,14 @@ import numpy as np
 from scipy.stats.qmc import Sobol
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.studies.design.scores import PENALTY, Point, Score, best_or_closest, ranked
+from viscontact.studies.design.scores import (
+    KNOWN_PENALTY,
+    PENALTY,
+    Point,
+    Score,
+    best_or_closest,
+    ranked,
+)
 from viscontact.studies.design.surrogate import Surrogate, interpolant
 
 #: Least gain that counts, relative to the objective, where the error is smaller or not known; the
@@ -25,6 +32,8 @@ LEAST_GAIN, ERROR_PART, MOST_ERROR = 1e-3, 0.25, 2.5e-3
 LEAST_RADIUS, LARGEST_RADIUS = 1e-3, 0.25
 #: Least distance from the points that are known, in parts of the radius, and at least.
 APART, LEAST_APART = 0.02, 2e-4
+#: Least half edge of the box in which the gain of a known objective is predicted.
+KNOWN_RADIUS = 0.03
 #: Points in the box at which the surrogate is evaluated, by the number of ranges.
 GRIDS, SOBOL = {1: 161, 2: 41}, 11
 #: Last predictions that give the error of the surrogate.
@@ -58,12 +67,18 @@ class LocalSearch:
     misses: tuple[float, ...] = ()  # last errors of the predicted objective [-]
     margin: float = 0.0  # last error of a predicted excess where a bound was not kept
     looks: int = 0  # into the whole space, since the last gain
+    is_known: bool = False  # the objective, without a run
 
     @property
     def best(self) -> Score:
         """Best feasible point, or the closest one."""
         found = best_or_closest(self.scores)
         return self.scores[0] if found is None else found
+
+    @property
+    def weight(self) -> float:
+        """Cost of a relative excess over a bound [-]."""
+        return KNOWN_PENALTY if self.is_known else PENALTY
 
     @property
     def tolerance(self) -> float:
@@ -85,6 +100,8 @@ class LocalSearch:
     @property
     def miss(self) -> float:
         """Error of the predicted objective [-]; NaN if it is not known."""
+        if self.is_known:
+            return 0.0
         if self.misses:
             return max(self.misses[-REMEMBERED:])
         others = [each for each in self.scores if each is not self.best]
@@ -129,7 +146,7 @@ class LocalSearch:
             return score.cost
         if not score.has_limit:
             return math.inf
-        return score.value / self.scale + PENALTY * score.excess
+        return score.value / self.scale + self.weight * score.excess
 
     def proposal(self) -> tuple[LocalSearch, Prediction] | None:
         """Next point, and the search with its present box; None if nothing is to be gained."""
@@ -140,7 +157,8 @@ class LocalSearch:
             found = state._model_step() or state._poll()
             if found is not None:
                 return state, found
-            if len(state.misses) >= REMEMBERED and state.remaining_gain() <= state.tolerance:
+            is_certain = len(state.misses) >= REMEMBERED and not self.is_known
+            if is_certain and state.remaining_gain() <= state.tolerance:
                 break
             state = replace(state, radius=state.radius / 2)
         if state.looks >= LOOKS * (1 + len(self.ranges)) or not self.with_limits:
@@ -157,9 +175,13 @@ class LocalSearch:
         misses, margin, radius, looks = self.misses, self.margin, self.radius, self.looks
         if score.has_limit:
             if len(self.with_limits) > len(self.ranges):
-                misses = (*misses, abs(score.value / self.scale - made.objective))
+                missed = score.value / self.scale - made.objective
+                if self.is_known:
+                    missed = max(score.excesses, default=0.0) - made.excess
+                misses = (*misses, abs(missed))
             over = score.excess - made.excess if score.excess > 0 else 0.0
-            margin = min(max(over, margin / 2), 10 * LEAST_GAIN)
+            # Next to a bound that is not kept lies the optimum of a known objective.
+            margin = 0.0 if self.is_known else min(max(over, margin / 2), 10 * LEAST_GAIN)
         if found.best is score and self._gain(before, score) > self.tolerance:
             moved = self._distance(score.point, before.point)
             looks, radius = 0, min(max(2 * moved, radius / 2), LARGEST_RADIUS)
@@ -169,6 +191,14 @@ class LocalSearch:
 
     def remaining_gain(self) -> float:
         """Gain that the surrogate leaves in the box, with the error of its predictions [-]."""
+        if self.is_known:
+            # Its predictions err in the excess, and a small box would hide that.
+            points = replace(self, radius=max(self.radius, KNOWN_RADIUS))._box()
+            objective, excess = self._predicted(self.scores, points)
+            is_open = excess <= max(self.misses[-REMEMBERED:], default=math.inf)
+            return max(
+                0.0, self.best.value / self.scale - float(objective[is_open].min(initial=math.inf))
+            )
         points = self._box()
         objective, excess = self._predicted(self.scores, points)
         is_open = (excess <= self.margin) & ~self._behind_barriers(points)
@@ -210,7 +240,7 @@ class LocalSearch:
         responses = self.responses(points)
         objective, excess = self.objective_and_excess(responses)
         # A surrogate that has missed a bound keeps this distance from it.
-        costs = objective + PENALTY * np.maximum(excess + self.margin, 0.0)
+        costs = objective + self.weight * np.maximum(excess + self.margin, 0.0)
         row = int(costs.argmin())
         point = np.array(self.best.point)
         point[list(self.ranges)] = points[row]

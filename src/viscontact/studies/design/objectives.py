@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscontact.studies.design.goals import Constraint, Goal
-from viscontact.studies.design.scores import PENALTY, Point, Score, penalty
+from viscontact.studies.design.goals import Constraint, Goal, ParameterGoal
+from viscontact.studies.design.scores import KNOWN_PENALTY, PENALTY, Point, Score, penalty
 from viscontact.studies.design.trials import Trial
 from viscontact.studies.scalars import Value
 
@@ -29,6 +30,17 @@ class Objective:
     weights: tuple[float, ...] = (1.0,)
     best: tuple[float, ...] = ()  # least costs of all goals
     spans: tuple[float, ...] = ()  # of the costs along the curve
+
+    @property
+    def is_known(self) -> bool:
+        """True if the objective is known without a run, as that of a parameter is."""
+        return len(self.goals) == 1 and isinstance(self.goals[0], ParameterGoal)
+
+    def known(self, settings: Mapping[str, str]) -> float:
+        """Objective of values of the parameters, where it is known without a run."""
+        (goal,) = self.goals
+        assert isinstance(goal, ParameterGoal)
+        return goal.cost(goal.number(settings))
 
     def cost(self, trial: Trial) -> Value:
         """Cost of a trial and its error: NaN if a run failed, inf as error without a limit."""
@@ -63,8 +75,6 @@ class Objective:
 #: Most that the reach of a contact adds to the cost of a value without a limit. A contact that
 #: reaches the sharp end of a body has a smaller cost the less it reaches.
 MOST_REACH = 5.0
-#: Cost of a trial of which a run failed, above any penalty.
-FAILED = 2 * PENALTY
 
 
 @dataclass
@@ -76,6 +86,11 @@ class PenalisedCost:
     constraints: tuple[Constraint, ...]
     scale: float = 0.0  # size of the first objective
     reach: float = 0.0  # first reach of a contact [m]
+
+    @property
+    def weight(self) -> float:
+        """Cost of a relative excess over a bound [-]."""
+        return KNOWN_PENALTY if self.objective.is_known else PENALTY
 
     def score(self, trial: Trial, point: Point) -> Score:
         """Score of a trial at a point; the first one with a value gives the scale."""
@@ -100,9 +115,11 @@ class PenalisedCost:
     def _cost(self, trial: Trial, objective: Value) -> float:
         """Cost of a trial [-]."""
         if not math.isfinite(objective.value):
-            return FAILED
+            return 2 * self.weight  # above any penalty
         self.scale = self.scale or abs(objective.value) or 1.0
         self.reach = self.reach or trial.reach() or 1.0
         if objective.depends_on_mesh:
-            return PENALTY + min(trial.reach() / self.reach, MOST_REACH)
-        return objective.value / self.scale + penalty(trial.violation(self.constraints))
+            return self.weight + min(trial.reach() / self.reach, MOST_REACH)
+        return objective.value / self.scale + penalty(
+            trial.violation(self.constraints), self.weight
+        )

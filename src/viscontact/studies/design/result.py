@@ -15,14 +15,15 @@ import xarray as xr
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.case import Case, read_case
 from viscontact.results.formatting import format_with_error
-from viscontact.results.variables import SCALARS, error_name
+from viscontact.results.variables import error_name
 from viscontact.studies.case_values import case_with, fields_setting
-from viscontact.studies.design.goals import Constraint, Goal
+from viscontact.studies.design.goals import Constraint, Goal, ParameterGoal, ScalarGoal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.trade_off import costs_of, not_dominated
-from viscontact.studies.design.trials import Trial, goal_name
+from viscontact.studies.design.trials import Trial
 from viscontact.studies.design.year_of_creep import creeps_on, year_of_creep
-from viscontact.studies.scalars import Value, places_of, value_columns
+from viscontact.studies.scalars import places_of, value_columns
+from viscontact.studies.space import DIGITS
 from viscontact.studies.sweep.axes import coordinate
 from viscontact.studies.sweep.varied_runs import VariedRun
 from viscontact.units.display import StudyResult
@@ -40,11 +41,11 @@ class DesignResult(StudyResult):
     ----------
     table : xarray.Dataset
         All trials along the dimension ``trial``, in their order, in SI units: the varied keys as
-        coordinates, the goal and the constraints by their names, in the worst scenario, with their
-        errors; the goal over (trial, scenario) as ``<name>_of_scenarios``; ``level`` ("coarse", or
-        "case" for the cells of the case), ``feasible`` and ``message``, the reason of a failed run.
-        A trade-off has ``on_front``, the trials that are not dominated. Trial 0 is the case as it
-        is.
+        coordinates, scalars that are goals or constraints by their names, in the worst scenario,
+        with their errors; a scalar that is a goal over (trial, scenario) as
+        ``<name>_of_scenarios``; ``level`` ("coarse", or "case" for the cells of the case),
+        ``feasible`` and ``message``, the reason of a failed run. A trade-off has ``on_front``, the
+        trials that are not dominated. Trial 0 is the case as it is.
     settings : mapping of str to str
         Best values by key, as ``--set`` takes them.
     notes : tuple of str
@@ -80,8 +81,10 @@ class DesignResult(StudyResult):
     case: Path
     fixed: Mapping[str, str]
     goals: tuple[Goal, ...]
+    constraints: tuple[Constraint, ...]
     number: int  # of the best trial
     scenarios: tuple[Scenario, ...]
+    deciding: int = 0  # number of the scenario in which the best trial is farthest off
 
     @property
     def best(self) -> xr.Dataset:
@@ -99,7 +102,7 @@ class DesignResult(StudyResult):
 
     @property
     def goal(self) -> Goal:
-        """The scalar that is to be least or largest; of several the first one."""
+        """What is to be least or largest; of several the first one."""
         return self.goals[0]
 
     @property
@@ -111,7 +114,7 @@ class DesignResult(StudyResult):
         """
         if len(self.goals) == 1:
             return self.table.isel(trial=[self.number])
-        return self.table.isel(trial=self.table["on_front"].values).sortby(self.goal.scalar)
+        return self.table.isel(trial=self.table["on_front"].values).sortby(self.goal.name)
 
     @property
     def best_case(self) -> Case:
@@ -169,9 +172,7 @@ class DesignResult(StudyResult):
 
     def _deciding_run(self, settings: Mapping[str, str]) -> VariedRun:
         """Run of some values in the scenario that decides."""
-        values = self.best[f"{self.goal.scalar}_of_scenarios"].values
-        number = values.argmax() if self.goal.least else values.argmin()
-        scenario = self.scenarios[int(number)]
+        scenario = self.scenarios[self.deciding]
         whole = {**self.fixed, **scenario.settings(settings)}
         whole |= fields_setting(case_with(self.case, self.fixed))
         return VariedRun(self.case, whole, tuple(settings), "", "", "cases")
@@ -181,33 +182,45 @@ class DesignResult(StudyResult):
         if len(self.goals) == 1:
             goal = self.goal
             own, further = self._format(goal, self.number), self._further(goal)
-            return f"{goal}: {own} at {values}{self._prior(goal)}{further}"
-        each = (f"{g.scalar} {self._format(g, self.number)}{self._prior(g)}" for g in self.goals)
+            where = f"at {values}" if isinstance(goal, ScalarGoal) else self._kept(values)
+            return f"{goal}: {own} {where}{self._prior(goal)}{further}"
+        each = (f"{g.name} {self._format(g, self.number)}{self._prior(g)}" for g in self.goals)
         return (
             f"{_list_texts(map(str, self.goals))}: {self.front.sizes['trial']} trials are not "
             f"dominated; the compromise has {_list_texts(each)}, at {values}"
         )
 
     def _prior(self, goal: Goal) -> str:
-        if not np.isfinite(self.table[goal.scalar].values[0]):
+        value = self.table[goal.name].values[0]
+        if not (np.isreal(value) and np.isfinite(value)):
             return ""
         return f", where the case has {self._format(goal, 0)}"
 
     def _further(self, goal: Goal) -> str:
         """Gain that further runs may have, unless that is hardly more than nothing."""
-        left, value = self.remaining_gain, abs(float(self.best[goal.scalar]))
+        left, value = self.remaining_gain, abs(float(self.best[goal.name]))
         if math.isnan(left):
             return "; what further runs may gain is not known"
         if left <= LEAST_STATED * value:
             return ""
-        return (
-            f"; further runs may gain up to {format_quantity(left, SCALARS[goal.scalar].units, 2)}"
-        )
+        return f"; further runs may gain up to {format_quantity(left, goal.units, 2)}"
 
     def _format(self, goal: Goal, trial: int) -> str:
-        name = goal.scalar
-        value, error = (float(self.table[n].values[trial]) for n in (name, error_name(name)))
-        return format_with_error(value, error, SCALARS[name].units)
+        if isinstance(goal, ParameterGoal):
+            return format_quantity(float(self.table[goal.name].values[trial]), goal.units, DIGITS)
+        value, error = (
+            float(self.table[n].values[trial]) for n in (goal.name, error_name(goal.name))
+        )
+        return format_with_error(value, error, goal.units)
+
+    def _kept(self, values: str) -> str:
+        """The constraints at the best trial, and other parameters than the goal."""
+        kept = []
+        for each in self.constraints:
+            own, error = (float(self.best[n]) for n in (each.scalar, error_name(each.scalar)))
+            kept.append(f"{each.scalar} {format_with_error(own, error, each.units)}")
+        others = f" at {values}" if len(self.settings) > 1 else ""
+        return f"with {_list_texts(kept)}{others}"
 
 
 def table_of(
@@ -227,8 +240,9 @@ def table_of(
         values = [trial.extreme(each) for trial in trials]
         data |= value_columns(each.scalar, "trial", values)
     for goal in goals:
-        data |= value_columns(goal.scalar, "trial", [trial.worst(goal) for trial in trials])
-        data |= _of_scenarios(trials, goal)
+        if isinstance(goal, ScalarGoal):
+            data |= value_columns(goal.name, "trial", [trial.worst(goal) for trial in trials])
+            data |= _of_scenarios(trials, goal)
     feasible = [trial.is_feasible(goals, constraints) for trial in trials]
     if len(goals) > 1:
         data["on_front"] = _on_front(trials, goals, feasible)
@@ -239,9 +253,8 @@ def table_of(
 
 
 def _of_scenarios(trials: Sequence[Trial], goal: Goal) -> dict[str, xr.Variable]:
-    none = Value(np.nan, np.nan)
-    found = [[r.values.get(goal_name(goal), none) for r in trial.results] for trial in trials]
-    return value_columns(goal.scalar, ("trial", "scenario"), found, "_of_scenarios")
+    found = [trial.values_of(goal) for trial in trials]
+    return value_columns(goal.name, ("trial", "scenario"), found, "_of_scenarios")
 
 
 def _on_front(

@@ -13,6 +13,9 @@ Point = tuple[float, ...]
 #: Cost of a relative excess over a bound, in parts of the objective: an exact penalty, as long as
 #: the objective changes less than this for a given relative change of the bound.
 PENALTY = 10.0
+#: The same where the objective is known without a run, as that of a parameter is, which may change
+#: much for a small change of what is bounded: first the bounds are kept, then the objective counts.
+KNOWN_PENALTY = 1e3
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,15 @@ class Score:
         return max(0.0, *self.excesses, 0.0)
 
 
+@dataclass(frozen=True)
+class Found:
+    """Best point that a search has found."""
+
+    best: Score | None  # feasible, on the cells of the case
+    is_cut_short: bool  # the runs were used up before the gain was within the error
+    remaining_gain: float = math.nan  # of the objective, predicted around the best point
+
+
 #: Points that are likely to follow, a given number of them.
 Foreseen = Callable[[int], Sequence[Point]]
 #: Scores of some points; workers that are free compute those that are likely to follow.
@@ -54,10 +66,10 @@ Foreseen = Callable[[int], Sequence[Point]]
 Evaluate = Callable[[Sequence[Point], Level, Foreseen | None], Sequence[Score]]
 
 
-def penalty(excess: float) -> float:
+def penalty(excess: float, weight: float = PENALTY) -> float:
     """Cost of a relative excess over a bound [-]."""
     # Less than twice the factor, and never flat, so that a search knows the way to the bound.
-    return PENALTY * (excess if excess < 1 else 2 - 1 / excess)
+    return weight * (excess if excess < 1 else 2 - 1 / excess)
 
 
 def ranked(scores: Iterable[Score]) -> list[Score]:

@@ -13,6 +13,7 @@ from viscontact.studies.design.local_search import LocalSearch
 from viscontact.studies.design.scores import (
     Evaluate,
     Foreseen,
+    Found,
     Point,
     Score,
     best_or_closest,
@@ -35,16 +36,7 @@ BOX, WIDE_BOX = 0.08, 0.15
 NEAR_END, NEAR_UNFEASIBLE_END = 0.1, 0.25
 
 
-@dataclass(frozen=True)
-class Found:
-    """Best point that a search has found."""
-
-    best: Score | None  # feasible, on the cells of the case
-    is_cut_short: bool  # the runs were used up before the gain was within the error
-    remaining_gain: float = math.nan  # of the objective, predicted around the best point
-
-
-def search(
+def search(  # noqa: PLR0913
     evaluate: Evaluate,
     space: Space,
     budget: Budget,
@@ -53,13 +45,15 @@ def search(
     size: int = 1,
     held: int = 0,
     known: Iterable[Score] = (),
+    objective: Callable[[Point], float] | None = None,
 ) -> Found:
     """Search for the best feasible point on the last of some levels of cells, the cheapest first.
 
     A point takes `size` runs; `held` runs of the budget are left to later searches, `known` points
-    are those of earlier ones.
+    are those of earlier ones. Where the `objective` is known without a run, points that cannot be
+    better than a feasible one are not run.
     """
-    made = _Search(evaluate, space, budget, levels, size)
+    made = _Search(evaluate, space, budget, levels, size, objective)
     made.tried.update({each.key: each for each in known})
     # The optimum is that of the finest cells. What its surroundings do not need is left to the rest
     # of the space.
@@ -87,6 +81,7 @@ class _Search:
     budget: Budget
     levels: Sequence[Level]
     size: int
+    objective: Callable[[Point], float] | None = None
     tried: dict[Hashable, Score] = field(default_factory=dict)
     is_cut_short: bool = False
     remaining_gain: float = math.nan
@@ -114,7 +109,7 @@ class _Search:
         if len(choices) == len(self.space.parameters):
             counts = [len(each.values) for each in choices]
             middles = ([(n + 0.5) / count for n in range(count)] for count in counts)
-            self._try_all(list(product(*middles)), level)
+            self._try_all(sorted(product(*middles), key=self.objective or _in_order), level)
             return
         left = (self.budget.most - self.budget.reserved) // self.size
         Exploration(
@@ -123,8 +118,17 @@ class _Search:
             self.budget.most,
             lambda tried: tried >= left // UNFEASIBLE_PART and closest(self.at(level)) is not None,
             lambda: bool(ranked(self.at(level))),
+            lambda point: self._least_cost(point, level),
         ).run()
         self._try_ends(level)
+
+    def _least_cost(self, point: Point, level: Level) -> float | None:
+        """Cost of a point that cannot be better than a feasible one; None if it is to be run."""
+        best = next(iter(ranked(self.at(level))), None)
+        if self.objective is None or best is None or not best.value:
+            return None
+        value = self.objective(point)
+        return None if value < best.value else best.cost * value / best.value
 
     def _approach(self, level: Level) -> None:
         """Search around the point that is closest to a feasible one, where none is feasible."""
@@ -210,11 +214,13 @@ class _Search:
         alike = [each for each in self.tried.values() if choices(each) == own]
         coarse = [each for each in alike if each.level != level and each.has_limit]
         scores = tuple(each for each in alike if each.level == level)
-        return LocalSearch(ranges, scores, tuple(coarse), radius)
+        is_known = self.objective is not None
+        return LocalSearch(ranges, scores, tuple(coarse), radius, is_known=is_known)
 
     def _try_all(self, points: Sequence[Point], level: Level) -> None:
         for number, point in enumerate(points, 1):
-            self.score_at(point, level, _first_of(points[number:]))
+            if self._least_cost(point, level) is None:
+                self.score_at(point, level, _first_of(points[number:]))
 
     def score_at(self, point: Point, level: Level, ahead: Foreseen) -> Score:
         """Return the score of a point; `ahead` are the points that are likely to follow."""
@@ -230,6 +236,11 @@ def _followers(state: LocalSearch, count: int) -> list[Point]:
         found.append(made.point)
         state = state.after(made, state.believed(made))
     return found
+
+
+def _in_order(point: Point) -> float:
+    """Sort key that leaves points in their order."""
+    return 0.0
 
 
 def _first_of(points: Sequence[Point]) -> Foreseen:

@@ -15,7 +15,7 @@ from viscontact.studies.case_values import case_with, result_with
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario
 from viscontact.studies.design.sharp_ends import reaches_sharp_end
-from viscontact.studies.design.trials import AT_END, REACH, goal_name
+from viscontact.studies.design.trials import AT_END, REACH
 from viscontact.studies.evaluation import Level, SimulatedRun
 from viscontact.studies.scalars import Value, magnitude
 
@@ -48,7 +48,7 @@ class CaseTrials:
 
     def numbers(self, settings: Mapping[str, str], found: xr.Dataset) -> dict[str, Any]:
         """Goals, constraints and reach of the contact in a run, with their errors, by name."""
-        values = {goal_name(goal): goal.value(found) for goal in self.goals}
+        values = {name: each for goal in self.goals for name, each in goal.taken(found).items()}
         values |= {str(each): each.value(found) for each in self.constraints}
         values[REACH] = magnitude(found, REACH, "worst")
         if found.attrs.get("warnings"):

@@ -6,7 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from viscontact.studies.design.goals import Constraint, Goal
+import numpy as np
+
+from viscontact.studies.design.goals import NONE, Constraint, Goal
 from viscontact.studies.evaluation import Level
 from viscontact.studies.scalars import Value
 
@@ -52,35 +54,45 @@ class Trial:
 
     def values_of(self, goal: Goal) -> list[Value]:
         """Value of the goal in each scenario; NaN if a run failed."""
-        return [each.values.get(goal_name(goal), _NONE) for each in self.results]
+        return [goal.value(self.settings, each.values) for each in self.results]
 
     def worst(self, goal: Goal) -> Value:
         """Value of the goal in the scenario that is farthest off; NaN if a run failed."""
         values = self.values_of(goal)
         if any(math.isnan(each.value) for each in values):
-            return _NONE
+            return NONE
         # A value without a limit is worse than any number.
         return max(values, key=lambda each: (each.depends_on_mesh, goal.cost(each.value)))
 
+    def deciding(self, goal: Goal, constraints: tuple[Constraint, ...]) -> int:
+        """Number of the scenario in which the goal, or else a constraint, is farthest off."""
+        costs = [(each.depends_on_mesh, goal.cost(each.value)) for each in self.values_of(goal)]
+        excesses = np.reshape(self.excesses(constraints), (len(constraints), len(costs)))
+        ranks = [
+            (*cost, excess)
+            for cost, excess in zip(costs, excesses.max(axis=0, initial=-np.inf), strict=True)
+        ]
+        return max(range(len(ranks)), key=ranks.__getitem__)
+
     def reach(self) -> float:
         """Largest extent of a contact along x [m]; zero if it is not known."""
-        lengths = [each.values.get(REACH, _NONE).value for each in self.results]
+        lengths = [each.values.get(REACH, NONE).value for each in self.results]
         return max((each for each in lengths if not math.isnan(each)), default=0.0)
 
     @property
     def is_at_sharp_end(self) -> bool:
         """True if the contact reaches a sharp end of the body in a scenario."""
-        return any(each.values.get(AT_END, _NONE).value == 1.0 for each in self.results)
+        return any(each.values.get(AT_END, NONE).value == 1.0 for each in self.results)
 
     def extreme(self, constraint: Constraint) -> Value:
         """Value of a constraint in the scenario that comes closest to its bound, or exceeds it."""
-        values = [each.values.get(str(constraint), _NONE) for each in self.results]
+        values = [each.values.get(str(constraint), NONE) for each in self.results]
         return max(values, key=lambda each: constraint.violation(each.value))
 
     def excesses(self, constraints: tuple[Constraint, ...]) -> tuple[float, ...]:
         """Relative excess over each bound in each scenario, below zero if it is kept."""
         return tuple(
-            each.violation(result.values.get(str(each), _NONE).value)
+            each.violation(result.values.get(str(each), NONE).value)
             for each in constraints
             for result in self.results
         )
@@ -91,12 +103,9 @@ class Trial:
 
     def has_limits(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
         """True if no goal depends on the mesh, and no scalar that has a largest allowed value."""
-        names = [goal_name(goal) for goal in goals] + [
-            str(each) for each in constraints if each.upper
-        ]
-        values = (
-            each.values.get(name, _NONE) for each in self.results for name in (*names, AT_END)
-        )
+        names = [name for goal in goals for name in goal.entries]
+        names += [str(each) for each in constraints if each.upper]
+        values = (each.values.get(name, NONE) for each in self.results for name in (*names, AT_END))
         return not any(each.depends_on_mesh for each in values)
 
     def is_feasible(self, goals: tuple[Goal, ...], constraints: tuple[Constraint, ...]) -> bool:
@@ -104,11 +113,3 @@ class Trial:
         have_values = all(math.isfinite(self.worst(goal).value) for goal in goals)
         has_limits = self.has_limits(goals, constraints)
         return have_values and has_limits and self.violation(constraints) == 0.0
-
-
-_NONE = Value(math.nan, math.nan)
-
-
-def goal_name(goal: Goal) -> str:
-    """Name of a goal among the values of a scenario."""
-    return f"{goal.scalar} at {goal.at}"

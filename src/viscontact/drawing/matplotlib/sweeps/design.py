@@ -17,22 +17,25 @@ _COLUMNS, _HEIGHT, _TRADE_OFF, _PROFILES = 2, 2.6, 3.4, 3.2
 _LETTER = 0.068
 
 
-def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
-    """Draw the goal of a design over each of its parameters.
+def trials(table: xr.Dataset, *, scalar: str | None = None, width: Width | None = None) -> Figure:
+    """Draw a scalar of a design over each of its parameters.
 
     Parameters
     ----------
     table : xarray.Dataset
         Trials of a design, `DesignResult.table`.
+    scalar : str, optional
+        Name of a goal or of the scalar of a constraint; by default the first goal, or, if that is a
+        parameter, what the first constraint bounds.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        A panel for each parameter: full points with error bars are feasible trials on the cells of
-        the case, pale ones those on coarse cells, crosses trials that are not feasible, and the
-        square is the best one.
+        A panel for each parameter, with a line at each bound of the scalar: full points with error
+        bars are feasible trials on the cells of the case, pale ones those on coarse cells, crosses
+        trials that are not feasible, and the square is the best one.
 
     Examples
     --------
@@ -43,7 +46,7 @@ def trials(table: xr.Dataset, *, width: Width | None = None) -> Figure:
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('Load x [m]', 'Force [N]')
     """
-    drawn = trial_panels(table)
+    drawn = trial_panels(table, scalar)
     columns = min(_COLUMNS, len(drawn))
     rows = -(-len(drawn) // columns)
     across = page_width(width, style.TWO_COLUMNS if columns > 1 else style.ONE_COLUMN)
