@@ -85,6 +85,8 @@ from .bodies.materials.cards import read_ansys as read_ansys
 from .bodies.materials.cards import read_ls_dyna as read_ls_dyna
 from .bodies.materials.cards import write_abaqus as write_abaqus
 from .bodies.materials.cards import write_ansys as write_ansys
+from .bodies.materials.hardness import HardnessEstimate as HardnessEstimate
+from .bodies.materials.hardness import modulus_from_shore as modulus_from_shore
 from .bodies.materials.layers import Layer as Layer
 from .bodies.materials.layers import Layered as Layered
 from .bodies.materials.material import Material as Material

@@ -251,7 +251,7 @@ MODULI = {"law": "relaxation-series", "equilibrium": "1 MPa", "moduli": [], "tim
         ("material", {"law": "relaxation-series"}, "write e.g. 'moduli: [50 MPa, 25 MPa]'"),
         ("material", {"law": "relaxation-series"}, "write e.g. 'data: uniaxial'"),
         ("indenter", {"shape": "pyramid", "half_angle": "35 deg"}, "write e.g. 'faces: 4'"),
-        ("material", SERIES | {"Shore": 60}, "Shore: a hardness does not determine how a material"),
+        ("material", SERIES | {"Shore": 60}, "Shore: write 'shore_a: 70' or 'shore_d: 45'"),
         ("material", SERIES | {"youngs_modulus": "1 GPa"}, "'instant', its inverse 1/E, with data"),
         ("material", CARD | {"youngs_modulus": "1 GPa"}, "It goes with law: elastic or maxwell"),
         ("material", CARD | {"E": "1 GPa"}, "youngs_modulus goes with law: elastic or maxwell"),

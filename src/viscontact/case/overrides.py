@@ -8,6 +8,7 @@ from copy import deepcopy
 from dataclasses import replace
 from typing import Any
 
+from viscontact.bodies.materials import library
 from viscontact.case import yaml_source
 from viscontact.case.aliases import CanonicalData, canonical_path, resolved, value_at
 from viscontact.case.document import Document
@@ -78,6 +79,7 @@ def _canonical(
         key = canonical.get(path, path)
         if path in canonical and not isinstance(value_at(before.data, key[:-1]), dict):
             key = key[:-1]  # a profile that was a name, or missing
+        key = _from_name_on(before.data, key)
         if (value := value_at(found.data, key)) is not None or path not in canonical:
             settings[key] = value
     return settings
@@ -96,9 +98,15 @@ def _setting(text: str) -> tuple[KeyPath, Any]:
 
 def _set_value(data: Any, path: KeyPath, value: Any) -> str | None:
     """Set a value; return the reason if that is impossible."""
+    root = data
     if whole := len(path) > 1 and _in_section(data, path):
         return f"--set {dotted(path)}: did you mean {dotted(whole)}?"
     for position, step in enumerate(path):
+        if position and _is_name(data, path[position - 1]) and step != "material":
+            # A key of a material that is a name: {material: NAME} with this key.
+            data = value_at(root, path[: position - 1])
+            data[path[position - 1]] = {"material": data[path[position - 1]]}
+            data = data[path[position - 1]]
         if not (_takes_keys(data, step) or _has_entry(data, step)):
             return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"
         if position == len(path) - 1:
@@ -111,6 +119,17 @@ def _set_value(data: Any, path: KeyPath, value: Any) -> str | None:
 
 def _takes_keys(data: Any, step: str | int) -> bool:
     return isinstance(data, dict) and isinstance(step, str)
+
+
+def _from_name_on(data: Any, path: KeyPath) -> KeyPath:
+    """Path up to a material that was a name, all of which the settings replace."""
+    lengths = range(1, len(path))
+    return next((path[:n] for n in lengths if isinstance(value_at(data, path[:n]), str)), path)
+
+
+def _is_name(value: Any, key: str | int) -> bool:
+    """True for a name of the library in place of a material."""
+    return key in ("material", "indenter_material", "base") and value in library.names()
 
 
 def _in_section(data: Any, path: KeyPath) -> KeyPath:

@@ -77,6 +77,7 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("g0 g_0", _INITIAL_SHEAR_MODULUS),
     ("einf e_inf e_infinity long_term_modulus", _FINAL_MODULUS),
     ("ginf g_inf g_infinity", _FINAL_SHEAR_MODULUS),
+    ("stiffness stiffness_factor modulus_factor factor scaling", {"scale": ""}),
     ("k compression_modulus", {"bulk_modulus": ""}),
     ("eta damping", {"viscosity": ""}),
     ("tau relaxation_time", {"times": "", "time": ""}),
@@ -115,8 +116,10 @@ _MEANINGS = {word: meant for words, meant in _SYNONYMS for word in words.split()
 
 _PLASTICITY = "plasticity is not available: the materials are linear viscoelastic"
 _HARDNESS = (
-    "a hardness does not determine how a material creeps: give moduli or measured data, see "
-    "'Bring your creep data' in the manual (howto/creep-data)"
+    "write 'shore_a: 70' or 'shore_d: 45' in a material: the stiffness of a rubber is estimated "
+    "from it, with a wide range. A hardness does not determine how a material creeps: for that "
+    "give a law beside it, which is scaled, see 'Bring your creep data' in the manual "
+    "(howto/creep-data)"
 )
 _FRICTION = (
     "friction is a section at the top of the case: write 'friction: {coefficient: 0.3}', and the "
@@ -149,9 +152,7 @@ _NOT_AVAILABLE = {
 
 #: Measures that no key takes, with what to give instead.
 _INSTEAD = {
-    **dict.fromkeys(
-        ("hardness", "shore", "shore_a", "shore_d", "shore_hardness", "irhd"), _HARDNESS
-    ),
+    **dict.fromkeys(("hardness", "shore", "shore_hardness", "irhd", "durometer"), _HARDNESS),
     **dict.fromkeys(("friction", "friction_coefficient", "mu", "cof", "traction"), _FRICTION),
     **dict.fromkeys(("adhesion", "work_of_adhesion", "surface_energy", "jkr", "dmt"), _ADHESION),
 }

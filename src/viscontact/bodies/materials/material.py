@@ -25,9 +25,10 @@ from viscontact.bodies.materials.compliance import (
     SeriesCompliance,
     SummedCompliance,
 )
+from viscontact.bodies.materials.hardness import READ_AT, HardnessEstimate
 from viscontact.bodies.materials.measured_range import MeasuredRange
 from viscontact.units.display import Displayable
-from viscontact.units.numbers import check_fields, store
+from viscontact.units.numbers import check_fields, positive, store
 
 
 @dataclass(frozen=True)
@@ -157,6 +158,93 @@ class Material(Displayable):
             shift=self.shift.referred_to(temperature),
             measured_range=None if tested is None else tested.at(temperature, factor),
         )
+
+    def scaled(self, factor: float) -> Material:
+        """Return the material with all moduli and viscosities of its law multiplied by a factor.
+
+        Parameters
+        ----------
+        factor : float
+            Scale of the stiffness, above 0 [-]; compliances are divided by it.
+
+        Returns
+        -------
+        Material
+            The material whose law is `factor` times as stiff at all times. An elastic bulk modulus
+            stays as it is. So do the strains of the measured range; its stress becomes less with a
+            softer law, and stays with a stiffer one. A note keeps the factor.
+
+        Raises
+        ------
+        ValueError
+            If the factor is not positive and finite.
+
+        Notes
+        -----
+        Phi(t) becomes Phi(t)/factor: the same creep at another stiffness, as an assumption on
+        compounds of one family, of which only one was tested.
+
+        Examples
+        --------
+        >>> from viscontact.bodies.laws import Zener
+        >>> rubber = Material(Zener(2e6, 1e6, 1e6), poisson_ratio=0.5)
+        >>> rubber.scaled(1.5).law
+        Zener(shear_modulus=3000000.0, delayed_modulus=1500000.0, viscosity=1500000.0)
+        """
+        factor = positive("Material.scaled: factor", factor)
+        if factor == 1.0:
+            return self
+        tested = self.measured_range
+        return replace(
+            self,
+            law=self.law.stiffened(factor),
+            measured_range=None if tested is None else tested.of_scaled(factor),
+            notes=(*self.notes, f"the moduli of the law are multiplied by {factor:.6g}"),
+        )
+
+    def with_hardness(self, estimate: HardnessEstimate) -> Material:
+        """Return the material as stiff as a hardness says, with a warning on the estimate.
+
+        Parameters
+        ----------
+        estimate : HardnessEstimate
+            Young's modulus of a Shore hardness, of `modulus_from_shore`.
+
+        Returns
+        -------
+        Material
+            The material whose law is scaled so that its Young's modulus 3 s after a step of strain,
+            when a durometer is read, is that of the estimate. Each run issues the warning.
+
+        Raises
+        ------
+        ValueError
+            If the bulk modulus is too small for the modulus.
+
+        Examples
+        --------
+        >>> from viscontact.bodies.laws import Elastic
+        >>> from viscontact.bodies.materials.hardness import modulus_from_shore
+        >>> found = Material(Elastic(1e6), 0.5).with_hardness(modulus_from_shore(50))
+        >>> print(f"{found.law.shear_modulus / 1e6:.3f} MPa")
+        0.967 MPa
+        """
+        wanted = estimate.youngs_modulus
+        if self.bulk_modulus is not None:
+            if wanted >= 9 * self.bulk_modulus:
+                raise ValueError(
+                    f"bulk_modulus: must be above a ninth of E = {wanted:.3g} Pa of "
+                    f"{estimate.hardness}, got {self.bulk_modulus:.3g} Pa"
+                )
+            shear = 3 * self.bulk_modulus * wanted / (9 * self.bulk_modulus - wanted)
+        else:
+            assert self.poisson_ratio is not None  # exactly one is given
+            shear = wanted / (2 * (1 + self.poisson_ratio))
+        factor = shear / float(self.law.relaxation(READ_AT))
+        # An elastic law that was made of the hardness has it already.
+        made = self if math.isclose(factor, 1.0, rel_tol=1e-9) else self.scaled(factor)
+        warning = "; ".join(filter(None, (self.warning, estimate.words)))
+        return replace(made, warning=warning)
 
     def clock(self, temperature: TemperatureHistory | None) -> Clock:
         """Return the clock of its creep under a temperature that varies, or none.

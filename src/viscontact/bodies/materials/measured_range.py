@@ -66,6 +66,13 @@ class MeasuredRange(Displayable):
             )
         store(self, temperatures=pair)
 
+    def of_scaled(self, factor: float) -> MeasuredRange:
+        """Return the range of a law whose moduli are multiplied by a factor: the narrower one."""
+        # A softer law has the strains of the tests at lower stresses. Of a stiffer one nothing was
+        # tested at higher stresses.
+        stress = None if self.stress is None else min(1.0, factor) * self.stress
+        return replace(self, stress=stress)
+
     def at(self, temperature: float, factor: float) -> MeasuredRange:
         """Return the range of a law that is shifted to a temperature [K], by a factor a_T."""
         return replace(self, first=factor * self.first, used_at=temperature)

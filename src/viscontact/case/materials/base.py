@@ -14,6 +14,7 @@ from pydantic_core import PydanticCustomError
 
 from viscontact.bodies.laws import Law, Shift
 from viscontact.bodies.materials.body import Body
+from viscontact.bodies.materials.hardness import HardnessEstimate, modulus_from_shore
 from viscontact.bodies.materials.material import Material
 from viscontact.case.materials.ageing import Ageing
 from viscontact.case.materials.measured_range import MeasuredRange
@@ -24,7 +25,10 @@ from viscontact.case.quantities import (
     Modulus,
     Offset,
     PoissonRatio,
+    Scale,
     Section,
+    ShoreA,
+    ShoreD,
     Temperature,
 )
 
@@ -60,6 +64,22 @@ class Medium(Section):
         default=None,
         description="warning about the law, such as that of a fit which misses its data; every run "
         "issues it",
+    )
+    scale: Scale | None = Field(
+        default=None,
+        description="factor on all moduli and viscosities of the law, by which its compliance is "
+        "divided; a bulk modulus stays as it is given",
+        examples=[1.5],
+    )
+    shore_a: ShoreA | None = Field(
+        default=None,
+        description="hardness of a rubber, from which its stiffness is estimated: the modulus of "
+        "an elastic law, or that of a law that creeps 3 s after a step, which is scaled to it; "
+        "every run warns of the spread",
+        examples=[70],
+    )
+    shore_d: ShoreD | None = Field(
+        default=None, description="likewise, of a hard elastomer", examples=[45]
     )
     thickness: Length | None = Field(
         default=None,
@@ -136,6 +156,18 @@ class Medium(Section):
         return self.temperature
 
     @property
+    def own_scale(self) -> float:
+        """Factor on the stiffness of the law that the section describes."""
+        return 1.0 if self.scale is None else self.scale
+
+    @property
+    def own_hardness(self) -> HardnessEstimate | None:
+        """Modulus that the hardness of the section stands for."""
+        if self.shore_a is not None:
+            return modulus_from_shore(self.shore_a, "A")
+        return None if self.shore_d is None else modulus_from_shore(self.shore_d, "D")
+
+    @property
     def lacks_temperature(self) -> bool:
         """True for a shift without the temperature that a run must give."""
         return self.shift is not None and not self.shift.is_referred and self.temperature is None
@@ -162,7 +194,10 @@ class Medium(Section):
         return None
 
     def _at_temperature(self, material: Material, shift: Shift | None) -> Material:
-        """Return the material at the temperature of the run, with its known range."""
+        """Return the scaled material at the temperature of the run, with its known range."""
+        material = material.scaled(self.own_scale)
+        if self.own_hardness is not None:
+            material = material.with_hardness(self.own_hardness)
         keys = {"measured_until": self.measured_until, "thickness": self.thickness}
         given: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
         if self.temperature is None:
@@ -188,6 +223,9 @@ class Medium(Section):
                 f"{missing}: a body that ends has a length and ends; write e.g. 'length: 60 mm' "
                 "and 'ends: [free, null]', or leave both out"
             )
+        given = [key for key in ("scale", "shore_a", "shore_d") if getattr(self, key) is not None]
+        if len(given) > 1:
+            raise ValueError(f"give {' or '.join(given)}: each determines the stiffness of the law")
         if self.centre is not None and self.ends is None:
             raise ValueError("centre: is that of a body that ends; give 'length' and 'ends', too")
         _ = self.body

@@ -75,6 +75,16 @@ class LawFile(FromFile):
         return self._at_temperature(self.section.built, self.shift.build())
 
     @property
+    def own_scale(self) -> float:
+        """1, as the material of the file has its scale."""
+        return 1.0
+
+    @property
+    def own_hardness(self) -> None:
+        """None, as the material of the file has its hardness."""
+        return
+
+    @property
     def own_temperature(self) -> float | None:
         """Temperature of the material, given here or in the file [K]."""
         return self.section.own_temperature if self.temperature is None else self.temperature
@@ -96,6 +106,7 @@ class LawFile(FromFile):
             if (value := getattr(self, key)) is not None
         }
         plain: dict[str, Any] = {"poisson_ratio": self.poisson_ratio, "warning": self.warning}
+        plain |= {key: getattr(self, key) for key in ("scale", "shore_a", "shore_d")}
         if self.ageing is not None:
             plain["ageing"] = {"age": f"{self.ageing.age!r} s", "exponent": self.ageing.exponent}
         return given | {key: value for key, value in plain.items() if value is not None}

@@ -64,6 +64,15 @@ class Elastic(Springs):
 
     law: Literal["elastic"]
 
+    def build_law(self) -> Law:
+        """Return the law, from a modulus or from the estimate of a hardness."""
+        if self.own_hardness is None:
+            return super().build_law()
+        for key in ("youngs_modulus", "shear_modulus"):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: a hardness stands for the modulus; give one of them")
+        return laws.Elastic.from_uniaxial(self.own_hardness.youngs_modulus, **self._in_volume)
+
 
 class Maxwell(Springs):
     """A spring and a dashpot in series."""

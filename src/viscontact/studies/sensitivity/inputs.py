@@ -20,6 +20,8 @@ SECTIONS = (
     *("adhesion", "motion", "temperature"),
 )
 TABLE_SECTION = "tangential"
+#: Sections of materials, whose laws have a scale.
+OF_MATERIALS = ("material", "indenter_material")
 #: Sections whose numbers belong to the computation, not to the contact.
 NO_INPUTS = ("grid", "time", "output", "tolerance", "report", "allowable", "title")
 
@@ -70,6 +72,9 @@ def input_of(case: Case, key: str) -> CaseNumber:
                         f"{key}: is 0, which gives no scale for a step; write a value in the case"
                     )
                 return given
+    section, last = key.split(".")[0], key.split(".")[-1]
+    if last == "scale" and section in OF_MATERIALS:
+        return CaseNumber(key, "1", 1.0, "1")  # of a law that is as it was measured
     known = ", ".join(each.key for each in inputs_of(case))
     raise ValueError(f"{key}: the case has no such number; its inputs are {known}")
 
