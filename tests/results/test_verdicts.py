@@ -18,7 +18,7 @@ from closeness import close_to
 from reports_without_pictures import without_pictures
 from returned import some
 from viscontact.case import CaseError, read_case
-from viscontact.case.allowable import MOVING, NOT_STEADY, Allowable
+from viscontact.case.allowable import MOVING, NOT_STEADY, OF_LINES, OF_MOVING_LINES, Allowable
 from viscontact.cli import main
 from viscontact.plot import margin_history
 from viscontact.report import report_page, sweep_page
@@ -123,15 +123,20 @@ def test_every_scalar_with_an_error_and_the_stresses_can_be_limited() -> None:
     own = {
         name for name in variables.scalars_with_error() if not variables.SCALARS[name].per_length_of
     }
-    assert names == own | set(STRESSES)
-    assert {name for name, each in variables.SCALARS.items() if each.moving} & names == set(MOVING)
+    # Of those per unit length, the ones that lines are judged by; line_load is force_per_length.
+    of_lines = {*OF_LINES, *OF_MOVING_LINES}
+    assert of_lines - {"line_load"} <= set(variables.scalars_with_error())
+    assert names == own | set(STRESSES) | of_lines
+    moving = {name for name, each in variables.SCALARS.items() if each.moving}
+    assert moving & names == {*MOVING, *OF_MOVING_LINES}
     assert set(variables.NOT_STEADY) & names == set(NOT_STEADY)
 
 
 def test_limits_have_the_dimension_of_their_scalar() -> None:
     for name, key in some(Allowable.model_fields.items()):
         annotation = str(key.annotation)
-        units = variables.SCALARS[name].units if name in variables.SCALARS else "Pa"
+        own = "force_per_length" if name == "line_load" else name
+        units = variables.SCALARS[own].units if own in variables.SCALARS else "Pa"
         expected = [
             key for key, known in DIMENSIONS.items() if known.unit.replace("^", "") == units
         ]

@@ -15,6 +15,7 @@ _Area = Annotated[float, WithUnit("area", POSITIVE)]
 _Stress = Annotated[float, WithUnit("pressure", POSITIVE)]
 _LineLoad = Annotated[float, WithUnit("line load", POSITIVE)]
 _Energy = Annotated[float, WithUnit("energy", POSITIVE)]
+_PowerPerLength = Annotated[float, WithUnit("power per length", POSITIVE)]
 _Power = Annotated[float, WithUnit("power", POSITIVE)]
 _Torque = Annotated[float, WithUnit("torque", POSITIVE)]
 _Stiffness = Annotated[float, WithUnit("stiffness", POSITIVE)]
@@ -31,6 +32,11 @@ GRIPPING = (
     *("tangential_displacement_x", "tangential_displacement_y", "slip_fraction"),
     *("friction_heat", "friction_power", "tangential_stiffness_x", "tangential_stiffness_y"),
     *("creepage", "drive_torque"),
+)
+#: Quantities per unit length, of line contacts only; those of moving ones.
+OF_LINES = ("line_load", "force_per_length", "strip_width")
+OF_MOVING_LINES = (
+    *("resistance_x_per_length", "resistance_y_per_length", "dissipation_per_length"),
 )
 ADHERING = ("least_pressure", "tensile_area", "adhesion_energy")
 NOT_STEADY = ("work", "loss_per_cycle", "motion_work", "heat")
@@ -113,15 +119,44 @@ class Allowable(Section):
         default=None, description="work that separating the surfaces would take"
     )
 
+    line_load: _LineLoad | None = Field(
+        default=None, description="force per unit length of a line contact"
+    )
+    force_per_length: _LineLoad | None = Field(
+        default=None, description="the same by its name in the result"
+    )
+    strip_width: _Length | None = Field(default=None, description="of a line contact")
+    resistance_x_per_length: _LineLoad | None = Field(
+        default=None, description="of a line contact against a motion along x"
+    )
+    resistance_y_per_length: _LineLoad | None = Field(
+        default=None, description="of a line contact against a motion along y"
+    )
+    dissipation_per_length: _PowerPerLength | None = Field(
+        default=None, description="power lost in the bodies of a line contact"
+    )
+
     @property
     def limits(self) -> dict[str, float]:
         """The given limits, by name, in SI units."""
-        return {name: limit for name, limit in self.model_dump().items() if limit is not None}
+        given = {name: limit for name, limit in self.model_dump().items() if limit is not None}
+        if (line_load := given.pop("line_load", None)) is not None:
+            given["force_per_length"] = line_load
+        return given
 
-    def require_known(self, *, moving: bool, steady: bool, grips: bool, adheres: bool) -> None:
+    def require_known(
+        self, *, moving: bool, steady: bool, grips: bool, adheres: bool, is_line: bool
+    ) -> None:
         """Raise ValueError for a quantity that a run lacks, by its motion and its surfaces."""
+        if self.line_load is not None and self.force_per_length is not None:
+            raise ValueError("allowable.line_load: is force_per_length; give one of them")
         for name in self.limits:
-            if name in MOVING and not moving:
+            if name in (*OF_LINES, *OF_MOVING_LINES) and not is_line:
+                raise ValueError(
+                    f"allowable.{name}: only a line contact has it, of a body without end or on a "
+                    "grid that is periodic along one axis; leave it out"
+                )
+            if name in (*MOVING, *OF_MOVING_LINES) and not moving:
                 raise ValueError(
                     f"allowable.{name}: only a moving contact has it; add a motion, or leave it out"
                 )

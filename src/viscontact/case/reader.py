@@ -151,7 +151,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         friction=found.friction.built if found.friction else None,
         tangential=found.tangential.built if found.tangential else None,
         title_block=found.report.entries,
-        allowable=found.allowable.limits,
+        allowable=found.limits,
         leakage=found.leakage.settings if found.leakage else {},
         grid=found.grid.build() if found.grid else None,
         times=times,

@@ -13,6 +13,7 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
+from viscontact.bodies.materials.strength import onset_ratio
 from viscontact.case.adhesion import AdhesionSection
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
@@ -139,7 +140,13 @@ class CaseFile(Section):
             )
         grips = self.friction is not None
         adheres = self.adhesion is not None
-        self.allowable.require_known(moving=not stands, steady=steady, grips=grips, adheres=adheres)
+        self.allowable.require_known(
+            moving=not stands,
+            steady=steady,
+            grips=grips,
+            adheres=adheres,
+            is_line=self._line_length is not None,
+        )
         self._require_radius_of_turns()
         if stands and self.time is not None and self.time.spacing == "cells":
             raise ValueError("time.spacing: cells goes with a motion; write 'spacing: uniform'")
@@ -157,6 +164,28 @@ class CaseFile(Section):
                 "plane; give the covered roll as material and the other one as indenter_material, "
                 "without friction, or leave counter_radius out"
             )
+
+    @property
+    def repeats(self) -> bool:
+        """True for a load that comes again: in cycles, or with a body that moves."""
+        return not self.body_motion.stands or len(self.history().load_cycles) > 1
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Allowable values, and where there are none, those of the materials."""
+        # The stress below the contact is computed in a half-space; that in the pressed body follows
+        # from the pressure, as in a contact of Hertz.
+        found: dict[str, float] = {}
+        if isinstance(self.material, Medium):
+            stress = self.material.built.strength(repeats=self.repeats)
+            found |= {} if stress is None else {"von_mises": stress}
+        if isinstance(self.indenter_material, Medium):
+            material, is_line = self.indenter_material.built, self._line_length is not None
+            stress = material.strength(repeats=self.repeats)
+            if stress is not None:
+                ratio = onset_ratio(material.instant_poisson_ratio, is_line=is_line)
+                found["peak_pressure"] = ratio * stress
+        return found | self.allowable.limits
 
     @property
     def media(self) -> dict[str, Medium]:

@@ -78,6 +78,8 @@ _SYNONYMS: tuple[tuple[str, dict[str, str]], ...] = (
     ("einf e_inf e_infinity long_term_modulus", _FINAL_MODULUS),
     ("ginf g_inf g_infinity", _FINAL_SHEAR_MODULUS),
     ("stiffness stiffness_factor modulus_factor factor scaling", {"scale": ""}),
+    ("yield_strength yield yield_point proof_stress", {"yield_stress": ""}),
+    ("endurance_limit fatigue fatigue_strength", {"fatigue_limit": ""}),
     ("k compression_modulus", {"bulk_modulus": ""}),
     ("eta damping", {"viscosity": ""}),
     ("tau relaxation_time", {"times": "", "time": ""}),
@@ -135,7 +137,7 @@ _HEAT = (
 
 #: Effects that are not modelled, by the words that ask for them.
 _NOT_AVAILABLE = {
-    **dict.fromkeys(("plasticity", "yield_stress", "yield_strength"), _PLASTICITY),
+    **dict.fromkeys(("plasticity", "hardening"), _PLASTICITY),
     **dict.fromkeys(("heat", "thermal_expansion", "conductivity", "heat_flux"), _HEAT),
     "wear": "wear is not available: the shapes do not change",
     "damage": "damage is not available: the materials do not break",

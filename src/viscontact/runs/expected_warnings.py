@@ -33,6 +33,7 @@ from viscontact.simulation.checks.tested_limits import (
     limit_warnings,
     limited_bodies,
     loaded_since,
+    repeated,
 )
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.transient.setup import RunSetup
@@ -95,6 +96,9 @@ def _limit_warnings(problem: Problem, found: ContactEstimate) -> dict[str, str]:
         float(found.motion[0]) if problem.has_datum(found.grid) else math.nan,
         loaded,
         "at the largest load",
+        peak,
+        found.grid.line_length is not None,
+        repeated(problem),
     )
     return limit_warnings(bodies, contact)
 

@@ -106,5 +106,8 @@ def _limit_warnings(run: SteadySetup, found: ContactEstimate, speed: float) -> d
         float(found.motion[0]) if contact.has_datum(found.grid) else math.nan,
         passed,
         f"at {format_quantity(speed, 'm/s')}",
+        peak,
+        found.grid.line_length is not None,
+        True,
     )
     return warnings | limit_warnings(limited_bodies(contact.bodies), load)

@@ -92,6 +92,11 @@ _FACTORS: dict[str, dict[str, float]] = {
         "mN/m": 0.001,
         "kN/m": 1000.0,
     },
+    "kilogram * meter / second ** 3": {
+        "W/m": 1.0,
+        "mW/m": 0.001,
+        "kW/m": 1000.0,
+    },
     "meter ** 2": {
         "m^2": 1.0,
         "um^2": 1e-12,

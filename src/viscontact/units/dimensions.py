@@ -39,6 +39,7 @@ DIMENSIONS = {
     "expansion": Dimension("a coefficient of thermal expansion", "1/K", "1.8e-4 / K", ("/ K",)),
     "area": Dimension("an area", "m^2", "25 mm^2", ("um^2", "mm^2", "cm^2", "m^2")),
     "line load": Dimension("a force per length", "N/m", "40 N/mm", ("N/m", "N/mm", "kN/m")),
+    "power per length": Dimension("a power per length", "W/m", "20 W/m", ("mW/m", "W/m", "kW/m")),
     "energy": Dimension("an energy", "J", "5 mJ", ("uJ", "mJ", "J", "kJ")),
     "torque": Dimension("a torque", "N m", "2 N m", ("N mm", "N m", "kN m")),
     "work of adhesion": Dimension("an energy per area", "J/m^2", "50 mJ/m2", ("mJ/m^2", "J/m^2")),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from viscontact.units.formatting import format_quantity
@@ -33,9 +33,9 @@ class HardnessEstimate:
         Hardness with its scale, as ``70 Shore A``.
     """
 
-    youngs_modulus: float
-    lowest: float
-    highest: float
+    youngs_modulus: float = field(metadata={"unit": "Pa"})
+    lowest: float = field(metadata={"unit": "Pa"})
+    highest: float = field(metadata={"unit": "Pa"})
     hardness: str
 
     @property

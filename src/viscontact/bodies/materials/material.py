@@ -28,6 +28,7 @@ from viscontact.bodies.materials.compliance import (
 from viscontact.bodies.materials.hardness import READ_AT, HardnessEstimate
 from viscontact.bodies.materials.measured_range import MeasuredRange
 from viscontact.units.display import Displayable
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, positive, store
 
 
@@ -62,6 +63,11 @@ class Material(Displayable):
         Physical ageing since time 0 of a run; the law is that at this age.
     measured_range : MeasuredRange, optional
         Strain, stress, first time and temperatures of the tests; runs beyond them issue a warning.
+    yield_stress : float, optional
+        Yield stress in tension [Pa], or another stress up to which the material may be loaded. A
+        run on a half-space warns of a peak pressure at which a contact of Hertz begins to yield.
+    fatigue_limit : float, optional
+        Likewise, under loads that repeat: in cycles, and of bodies that move [Pa].
 
     Raises
     ------
@@ -88,6 +94,12 @@ class Material(Displayable):
     shift: Shift | None = field(default=None, metadata={"recorded": "if given"})
     ageing: Ageing | None = field(default=None, metadata={"recorded": "if given"})
     measured_range: MeasuredRange | None = field(default=None, metadata={"recorded": "if given"})
+    yield_stress: float | None = field(
+        default=None, metadata={"unit": "Pa", "recorded": "if given"}
+    )
+    fatigue_limit: float | None = field(
+        default=None, metadata={"unit": "Pa", "recorded": "if given"}
+    )
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
@@ -96,7 +108,7 @@ class Material(Displayable):
             )
         ratio, bulk = compressibility("Material", self.poisson_ratio, self.bulk_modulus)
         store(self, poisson_ratio=ratio, bulk_modulus=bulk)
-        check_fields(self, "measured_until", "thickness")
+        check_fields(self, "measured_until", "thickness", "yield_stress", "fatigue_limit")
         object.__setattr__(self, "notes", tuple(self.notes))
         if self.shift is not None and not isinstance(self.shift, Shift):
             raise ValueError(
@@ -232,9 +244,10 @@ class Material(Displayable):
         wanted = estimate.youngs_modulus
         if self.bulk_modulus is not None:
             if wanted >= 9 * self.bulk_modulus:
+                young, bulk = (format_quantity(e, "Pa", 3) for e in (wanted, self.bulk_modulus))
                 raise ValueError(
-                    f"bulk_modulus: must be above a ninth of E = {wanted:.3g} Pa of "
-                    f"{estimate.hardness}, got {self.bulk_modulus:.3g} Pa"
+                    f"bulk_modulus: must be above a ninth of E = {young} of {estimate.hardness}, "
+                    f"got {bulk}"
                 )
             shear = 3 * self.bulk_modulus * wanted / (9 * self.bulk_modulus - wanted)
         else:
@@ -278,6 +291,20 @@ class Material(Displayable):
         except ValueError as error:
             raise ValueError(f"temperature: {error}") from None
         return ReducedTime(temperature, self.shift, self.ageing)
+
+    def strength(self, *, repeats: bool = False) -> float | None:
+        """Stress up to which it may be loaded [Pa], under a load that repeats; None without."""
+        limits = (self.yield_stress, self.fatigue_limit if repeats else None)
+        return min((each for each in limits if each is not None), default=None)
+
+    @property
+    def instant_poisson_ratio(self) -> float:
+        """Poisson's ratio just after a load [-]; that at a bulk modulus follows from the law."""
+        if self.poisson_ratio is not None:
+            return self.poisson_ratio
+        assert self.bulk_modulus is not None  # exactly one is given
+        shear, bulk = float(self.law.relaxation(0.0)), self.bulk_modulus
+        return (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear)) if math.isfinite(shear) else 0.5
 
     @property
     def known_until(self) -> float:

@@ -14,12 +14,18 @@ from viscontact.bodies.loads.program_sentences import FORMS, parsed_sentences
 from viscontact.case.errors import dotted
 from viscontact.case.loads.base import Controlled, Load, force_or_approach
 from viscontact.case.loads.history import History
-from viscontact.case.loads.levels import APPROACH_EXAMPLE, ForceOrApproach
+from viscontact.case.loads.levels import (
+    APPROACH_EXAMPLE,
+    BY_LENGTH,
+    ForceOrApproach,
+    Prescribed,
+)
 from viscontact.case.quantities import (
     Angle,
     AnyForce,
     CycleCount,
     Duration,
+    LineLoad,
     Offset,
 )
 from viscontact.case.section_choice import ChosenBy
@@ -77,7 +83,13 @@ class Harmonic(Load):
         description="mean approach, in place of the mean force",
         examples=[APPROACH_EXAMPLE],
     )
-    amplitude: ForceOrApproach = Field(description="of the force, or of the approach")
+    line_load: LineLoad | None = Field(
+        default=None,
+        description="of a line contact, in place of the mean force: mean force per unit length",
+    )
+    amplitude: ForceOrApproach = Field(
+        description="of the force, of the approach, or of the force per unit length"
+    )
     period: Duration = Field(description="time of a cycle", examples=["1 s"])
     cycles: CycleCount = Field(description="number of cycles; then the level is held")
     phase: Angle = Field(default=0.0, description="at time 0")
@@ -89,22 +101,32 @@ class Harmonic(Load):
 
     def build(self, extent: float = 1.0) -> LoadHistory:
         """Return the harmonic load."""
-        middle = force_or_approach(self.approach, "mean", self.mean)
-        control: Control = "approach" if "approach" in middle else "force"
+        middle, control = self._middle(extent)
         if self.amplitude.control != control:
             wanted, example = {
                 "force": ("a force, as the mean", DIMENSIONS["force"].example),
                 "approach": ("a length, as the approach", APPROACH_EXAMPLE),
+                BY_LENGTH: ("a force per length, as the line_load", DIMENSIONS[BY_LENGTH].example),
             }[control]
             raise ValueError(f"amplitude must be {wanted} is; write e.g. 'amplitude: {example}'")
         return loads.harmonic(
             **middle,
-            amplitude=self.amplitude.value,
+            amplitude=self.amplitude.value * (extent if control == BY_LENGTH else 1.0),
             period=self.period,
             cycles=self.cycles,
             phase=self.phase,
             **self._tail,
         )
+
+    def _middle(self, extent: float) -> tuple[dict[Control, float], Prescribed]:
+        """Mean level by its argument, and what it prescribes; a line load acts on a length [m]."""
+        if self.line_load is None:
+            middle = force_or_approach(self.approach, "mean", self.mean)
+            return middle, "approach" if "approach" in middle else "force"
+        for name in ("mean", "approach"):
+            if getattr(self, name) is not None:
+                raise ValueError(f"line_load and {name} exclude each other; give one of them")
+        return {"mean": self.line_load * extent}, BY_LENGTH  # type: ignore[dict-item]
 
 
 class Program(Load):

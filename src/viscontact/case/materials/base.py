@@ -109,6 +109,17 @@ class Medium(Section):
     ageing: Ageing | None = Field(
         default=None, description="physical ageing of a glassy polymer from time 0 of the run on"
     )
+    yield_stress: Modulus | None = Field(
+        default=None,
+        description="in tension, or another stress that the material bears; the result is compared "
+        "with it, unless allowable has the value",
+        examples=["250 MPa"],
+    )
+    fatigue_limit: Modulus | None = Field(
+        default=None,
+        description="stress that it bears under loads that repeat: in cycles, or of a moving body",
+        examples=["120 MPa"],
+    )
     measured_range: MeasuredRange | None = Field(
         default=None,
         description="strain, stress, first time and temperatures of the tests; a run beyond them "
@@ -198,7 +209,8 @@ class Medium(Section):
         material = material.scaled(self.own_scale)
         if self.own_hardness is not None:
             material = material.with_hardness(self.own_hardness)
-        keys = {"measured_until": self.measured_until, "thickness": self.thickness}
+        names = ("measured_until", "thickness", "yield_stress", "fatigue_limit")
+        keys = {name: getattr(self, name) for name in names}
         given: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
         if self.temperature is None:
             return replace(material, shift=shift, **given)

@@ -98,6 +98,7 @@ class LawFile(FromFile):
     def _keys(self) -> dict[str, Any]:
         """Keys that replace those of the file, as in a case file."""
         units = {"bulk_modulus": "Pa", "measured_until": "s", "thickness": "m"}
+        units |= {"yield_stress": "Pa", "fatigue_limit": "Pa"}
         if self.shift is None:
             units["temperature"] = "K"
         given = {

@@ -22,6 +22,8 @@ from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.materials.measured_range import MeasuredRange
+from viscontact.bodies.materials.strength import onset_ratio
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_number, format_quantity
 from viscontact.units.temperatures import in_celsius
 
@@ -34,9 +36,10 @@ NEARLY = 2.0
 
 @dataclass(frozen=True, eq=False)
 class LimitedBody:
-    """Body at the contact whose material states the strain or the stress of its tests."""
+    """Body at the contact whose material states a limit: of its tests, or of its strength."""
 
     range: MeasuredRange
+    material: Material
     compliance: Callable[[float], float]  # J(t) [1/Pa]
     modulus_ratio: float  # Young's modulus over E*, 1 - ν² [-]
     depth: float  # of the layer at the surface [m]; inf for a half-space
@@ -52,12 +55,15 @@ class Contact:
     approach: float  # [m]; NaN if unknown
     loaded: float  # time since the load came [s]
     when: str
+    peak_pressure: float = math.nan  # [Pa]
+    is_line: bool = False
+    repeats: bool = False  # the load, in cycles or with a body that moves
 
 
 def limited_bodies(
     bodies: Iterable[Material | Layered], clocks: Sequence[Clock] = (), since: float = 0.0
 ) -> tuple[LimitedBody, ...]:
-    """Bodies whose materials at the surface state a strain or a stress, the half-space first.
+    """Bodies whose materials at the surface state a limit, the half-space first.
 
     Their creep follows clocks, the time where none are given; the load came at `since` [s].
     """
@@ -65,15 +71,16 @@ def limited_bodies(
     every = list(bodies)
     for place, body in enumerate(every):
         top = body if isinstance(body, Material) else body.materials[0]
-        tested = top.measured_range
-        if tested is None or (tested.strain, tested.shear_strain, tested.stress) == (None,) * 3:
+        tested = top.measured_range or MeasuredRange()
+        limits = (tested.strain, tested.shear_strain, tested.stress)
+        if (*limits, top.strength(repeats=True)) == (None,) * 4:
             continue
         ratio = 0.5 if top.poisson_ratio is None else top.poisson_ratio
         depth = math.inf if isinstance(body, Material) else body.layers[0].thickness
         whose = "material" if len(every) == 1 else ("half-space", "indenter")[place] + " material"
         law, clock = top.contact_compliance(), clocks[place] if clocks else TIME
         compliance = partial(_crept, law, clock, since)
-        found.append(LimitedBody(tested, compliance, 1 - ratio**2, depth, whose))
+        found.append(LimitedBody(tested, top, compliance, 1 - ratio**2, depth, whose))
     return tuple(found)
 
 
@@ -94,14 +101,43 @@ def loaded_since(load: LoadHistory) -> float:
     return max(float(kinks[first - 1] if ramped else kinks[first]), 0.0)
 
 
+def repeated(problem: Problem) -> bool:
+    """Return whether a load comes again: in cycles, or with a body that moves."""
+    return not problem.motion.stands or len(problem.contact_load.load_cycles) > 1
+
+
 def limit_warnings(bodies: Iterable[LimitedBody], contact: Contact) -> dict[str, str]:
     """Warn of a strain or a stress beyond that of the tests of a body."""
     warnings: dict[str, str] = {}
     if contact.mean_pressure == 0:
         return warnings
     for body in bodies:
-        warnings = _of_body(body, contact) | warnings
+        warnings = _of_body(body, contact) | _of_strength(body, contact) | warnings
     return warnings
+
+
+def _of_strength(body: LimitedBody, contact: Contact) -> dict[str, str]:
+    """Warn of a pressure at which a contact of Hertz on a half-space begins to yield below."""
+    material, found = body.material, {}
+    names = {"yield stress": material.yield_stress}
+    if contact.repeats:
+        names["fatigue limit"] = material.fatigue_limit
+    for name, stress in names.items():
+        if stress is None or math.isfinite(body.depth):
+            continue
+        ratio = onset_ratio(material.instant_poisson_ratio, is_line=contact.is_line)
+        if contact.peak_pressure > ratio * stress:
+            peak, limit, own = (
+                format_quantity(each, "Pa", 3)
+                for each in (contact.peak_pressure, ratio * stress, stress)
+            )
+            shape = "line" if contact.is_line else "point"
+            found[f"{name} of {body.whose}"] = (
+                f"{contact.when} the peak pressure of {peak} exceeds {limit}, at which a {shape} "
+                f"contact of Hertz reaches the {name} of the {body.whose}, {own}, below its "
+                "surface (Johnson 1985); plastic deformation and damage are not computed"
+            )
+    return found
 
 
 def _of_body(body: LimitedBody, contact: Contact) -> dict[str, str]:

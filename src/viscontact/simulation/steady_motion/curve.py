@@ -296,6 +296,9 @@ def _warnings(problem: SteadyProblem, contact: SteadyContact, rim: Rim) -> dict[
         float(motion[0]) if body.has_datum(grid) else math.nan,
         passed,
         f"at {format_quantity(contact.speed, 'm/s')}",
+        float(pressure.max()),
+        grid.line_length is not None,
+        True,
     )
     return (
         mesh_warnings(rim.cells_across, spots)

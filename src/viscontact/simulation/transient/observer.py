@@ -38,6 +38,7 @@ from viscontact.simulation.checks.tested_limits import (
     limit_warnings,
     limited_bodies,
     loaded_since,
+    repeated,
 )
 from viscontact.simulation.transient.adhesion_results import adhesion_energy, adhesion_scalars
 from viscontact.simulation.transient.contact_events import ContactEvents
@@ -299,6 +300,9 @@ class Observer:
             float(solution.motion[0]) if self._run.problem.has_datum(rim.grid) else math.nan,
             loaded,
             f"at t = {format_quantity(time, 's')}",
+            peak,
+            self._run.grid.line_length is not None,
+            repeated(self._run.problem),
         )
         return limit_warnings(self._limited, contact)
 

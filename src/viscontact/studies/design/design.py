@@ -24,7 +24,7 @@ from viscontact.studies.case_values import (
 from viscontact.studies.cells import coarse_cells
 from viscontact.studies.design.conclusions import notes_on, notes_on_trade_off, why_infeasible
 from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
-from viscontact.studies.design.goals import constraints_of, goals_of, require_bounds
+from viscontact.studies.design.goals import constraints_of, goals_of, require_bounds, with_limits
 from viscontact.studies.design.objectives import Objective
 from viscontact.studies.design.parameters import space_of
 from viscontact.studies.design.result import DesignResult, table_of
@@ -95,7 +95,8 @@ def design(  # noqa: PLR0913
         scenario is computed without scatter and at all corners of the ranges.
     constraints : sequence of str, optional
         Bounds on the magnitudes of scalars at all instants of all scenarios, as
-        ``["contact_length<=18mm"]``, or with ``>=``.
+        ``["contact_length<=18mm"]``, or with ``>=``; ``["peak_pressure<=allowable"]`` is the
+        allowable value of the case, or that of the yield stress of its materials.
     clear_of_ends : bool, optional
         True: a contact that reaches a sharp end of the body at any instant is never the best one.
         Pressure has no limit there, also where the cells of a run do not resolve that, so that its
@@ -177,7 +178,8 @@ def design(  # noqa: PLR0913
     True
     """
     path, fixed = case_path(case), texts(settings)
-    space, limits = space_of(change), constraints_of(constraints)
+    space, allowable = space_of(change), case_with(path, fixed).allowable
+    limits = constraints_of(with_limits(constraints, allowable))
     others = {"over": tuple(over or ()), "settings": tuple(fixed)}
     refuse_repeated(change=space.keys, **others)
     refuse_repeated(scatter=tuple(scatter or ()), **others)

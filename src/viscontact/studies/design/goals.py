@@ -222,14 +222,32 @@ def _names(given: Names) -> list[str]:
 
 def constraints_of(texts: Sequence[str]) -> tuple[Constraint, ...]:
     """Read constraints, as ``contact_length<=18mm``; ValueError names the fault."""
-    if isinstance(texts, str):
-        raise ValueError(f"constraints: must be a list, as [{texts!r}]")
     found = tuple(given_constraint("constraints", text) for text in texts)
     for upper in found:
         for lower in found:
             same = upper.scalar == lower.scalar and upper.upper and not lower.upper
             if same and lower.bound > upper.bound:
                 raise ValueError(f"constraints: {upper} and {lower} contradict each other")
+    return found
+
+
+def with_limits(texts: Sequence[str], limits: Mapping[str, float]) -> list[str]:
+    """Constraints with numbers for ``<=allowable``: the limits of the case [SI], by name."""
+    if isinstance(texts, str):
+        raise ValueError(f"constraints: must be a list, as [{texts!r}]")
+    found = list(texts)
+    for place, text in enumerate(found):
+        name, sign, bound = text.partition("<=")
+        scalar = name.strip()
+        if not sign or bound.strip() != "allowable":
+            continue
+        if scalar not in limits:
+            known = ", ".join(each for each in limits if each in SCALARS) or "none of a scalar"
+            raise ValueError(
+                f"constraints: {text}: the case has no allowable {scalar}; it has {known}; write "
+                "a value"
+            )
+        found[place] = f"{scalar}<={limits[scalar]!r} {SCALARS[scalar].units}"
     return found
 
 
