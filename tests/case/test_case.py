@@ -193,7 +193,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("material=pmma", "called 'pmma'; did you mean 'pmma-paper' or 'pmma-kumar-2004'? There"),
         ("material=POM", "called 'POM'; did you mean 'pom-c-23c'? There are pmma-paper"),
         ("material=PEEK", "called 'PEEK'. There are pmma-paper"),
-        ("material=PEEK", "or describe your own: see 'Bring your creep data' in the manual"),
+        ("material=PEEK", "or one that creeps: see 'Bring your creep data' in the manual"),
         ("time.steps=0", "time.steps: must be greater than or equal to 1, got 0"),
         ("time.steps=1.5", "time.steps: must be a whole number, got 1.5"),
         ("time.steps=1000000000000", "time.steps: must be less than or equal to 100000"),

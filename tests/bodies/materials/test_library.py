@@ -265,6 +265,8 @@ def test_a_run_beyond_the_measured_time_warns() -> None:
         ("acetal", ["pom-c-23c"]),
         ("rubber", ["epdm-70-25c", "polyisoprene-226k-25c"]),
         ("pom-23c", ["pom-c-23c"]),
+        ("cast_iron", ["ductile-iron"]),
+        ("Stainless steel", ["stainless-steel"]),
         ("PEEK", []),
         ("PU", []),
         ("PE", []),
@@ -280,6 +282,52 @@ def test_unknown_names_are_refused_with_those_there_are() -> None:
         shipped_material("pmma-papre")
     with pytest.raises(KeyError):
         library.entry("../pmma-paper")
+
+
+def test_constants_of_crystals_are_the_mean_of_the_bounds_of_voigt_and_reuss() -> None:
+    # Hill, 1952, Proc. Phys. Soc. A 65, 349: over all directions, of the constants in the files.
+    silicon = _stiffness(166, 166, 80, 64, 64, 0)
+    sapphire = _stiffness(496.8, 498.1, 147.4, 163.6, 110.9, -23.5)
+    silicon[5, 5] = 80.0  # cubic
+    for name, stiffness in (("silicon", silicon), ("sapphire", sapphire)):
+        bulk, shear = _mean_moduli(stiffness)
+        material = shipped_material(name)
+        assert_allclose(material.law.relaxation(0.0), 1e9 * shear, rtol=5e-3)
+        ratio = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+        assert material.poisson_ratio is not None
+        assert_allclose(material.poisson_ratio, ratio, rtol=5e-3)
+    # Along [100], 130 GPa, and along the c axis: as the files say.
+    assert_allclose(1 / np.linalg.inv(silicon)[0, 0], 130, rtol=5e-3)
+    assert_allclose(1 / np.linalg.inv(sapphire)[2, 2], 461, rtol=5e-3)
+
+
+def _stiffness(*constants: float) -> Any:
+    """Stiffness of a trigonal crystal from c11, c33, c44, c12, c13, c14 (Nye, 1957, table 9)."""
+    c11, c33, c44, c12, c13, c14 = constants
+    c66 = (c11 - c12) / 2
+    return np.array(
+        [
+            [c11, c12, c13, c14, 0, 0],
+            [c12, c11, c13, -c14, 0, 0],
+            [c13, c13, c33, 0, 0, 0],
+            [c14, -c14, 0, c44, 0, 0],
+            [0, 0, 0, 0, c44, c14],
+            [0, 0, 0, 0, c14, c66],
+        ]
+    )
+
+
+def _mean_moduli(stiffness: Any) -> Any:
+    """Bulk and shear modulus: means of those at equal strain and at equal stress."""
+    compliance = np.linalg.inv(stiffness)
+    c, s = stiffness[:3, :3], compliance[:3, :3]
+    bulk = c.sum() / 9, 1 / s.sum()
+    sheared = np.trace(stiffness[3:, 3:]), np.trace(compliance[3:, 3:])
+    shear = (
+        (3 * np.trace(c) - c.sum()) / 30 + sheared[0] / 5,
+        15 / (6 * np.trace(s) - 2 * s.sum() + 3 * sheared[1]),
+    )
+    return np.mean(bulk), np.mean(shear)
 
 
 @pytest.mark.parametrize(

@@ -11,18 +11,18 @@ from viscontact.bodies.materials.library.entry import entry, names
 def nearest_names(name: str) -> list[str]:
     """Return at most three shipped materials that a name such as ``"POM"`` may mean."""
     # Words of names begin with it, else words of title or family, else the most similar name.
-    query = name.strip().lower()
+    query = re.sub(r"[\s_-]+", " ", name.strip().lower())
     if not query:
         return []
     # At the beginning of a word only: "PU" is not in "computed", nor "PE" in "paper".
     begins = re.compile(rf"\b{re.escape(query)}")
-    within = [each for each in names() if begins.search(each)]
+    within = [each for each in names() if begins.search(each.replace("-", " "))]
     within = within or [
         each
         for each in names()
         if begins.search(f"{entry(each).title} {entry(each).family}".lower())
     ]
-    return within[:3] or difflib.get_close_matches(query, names(), n=1)
+    return within[:3] or difflib.get_close_matches(name.strip().lower(), names(), n=1)
 
 
 def unknown_name(name: str, kind: str = "shipped material") -> str:
@@ -49,5 +49,6 @@ def unknown_name(name: str, kind: str = "shipped material") -> str:
     hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else "."
     return (
         f"no {kind} is called {name!r}{hint} There are {', '.join(names())}; or describe your "
-        "own: see 'Bring your creep data' in the manual (howto/creep-data)"
+        "own, such as {law: elastic, youngs_modulus: 210 GPa, poisson_ratio: 0.3}, or one that "
+        "creeps: see 'Bring your creep data' in the manual (howto/creep-data)"
     )
