@@ -31,10 +31,16 @@ from viscontact.cli.run.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
 from viscontact.report import report_page
 from viscontact.report.accuracy import error_rows
-from viscontact.results.formatting import format_error, format_percent, format_supported
+from viscontact.results.formatting import (
+    format_error,
+    format_percent,
+    format_supported,
+    format_with_error_in,
+)
 from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS, scalars_of, scalars_with_error
 from viscontact.simulation.accuracy.error_models import ERROR_MODELS
+from viscontact.units.formatting import ReadableUnit
 
 __all__ = ["without_pictures"]  # a fixture
 
@@ -53,6 +59,7 @@ PARTS = {
     "peak_pressure": 0.056, "mean_pressure": 0.0078, "work": 0.009, "force": 0.0,
     "loss_per_cycle": 0.11,
 }  # fmt: skip
+from viscontact.units.formatting import ReadableUnit
 
 
 @pytest.fixture(scope="module")
@@ -133,6 +140,14 @@ def test_no_digit_is_printed_beyond_the_second_of_the_error(
     # Half a step of the last of so many digits, or half a step of the error's second digit.
     allowed = max(0.51 * 10 ** (1 - digits) * size, 0.051 * error)
     assert abs(float(printed) - value) <= allowed
+
+
+def test_a_number_whose_error_exceeds_all_of_its_column_is_not_printed() -> None:
+    pressure = ReadableUnit("MPa", 1e6)
+    assert format_with_error_in(pressure, 15e6, 32e6, 15.6e6) == "? ± 32"
+    assert format_with_error_in(pressure, 15e6, 14e6, 15.6e6) == "15 ± 14"
+    assert format_supported(15.0, 32.0, largest=40.0) == "15"  # small beside others
+    assert format_supported(0.2, 32.0, largest=15.0) == "0"
 
 
 def test_marks_of_errors_differ() -> None:

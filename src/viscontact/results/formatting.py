@@ -19,6 +19,8 @@ _ERROR_DIGITS, _DIGITS, _MOST_DIGITS = 2, 4, 7
 _TIES_UP = 1 + 1e-9
 #: Errors of a smaller part of the value are left out.
 NEGLIGIBLE = 1e-4
+#: In a table in place of a number whose error is larger than every number of its kind.
+UNKNOWN = "?"
 #: In a table in place of the error of a number that depends on the mesh.
 MESH_MARK = "mesh"
 
@@ -39,15 +41,18 @@ def format_bounded(value: float, error: float, units: str) -> str:
     return f">{number}" if math.isinf(error) else number
 
 
-def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:
-    """Format a value with its error, both in SI, in the unit of a table."""
+def format_with_error_in(
+    unit: ReadableUnit, value: float, error: float, largest: float = math.inf
+) -> str:
+    """Format a value with its error, both in SI, in the unit of a table with a largest value."""
     number, half_width = value / unit.factor, error / unit.factor
     if math.isinf(error):
         return format_supported(number, half_width)
     if not error > NEGLIGIBLE * abs(value):
         return format_number(number)
     bar = format_error(half_width).replace("±", "± ")
-    return f"{format_supported(number, half_width, _MOST_DIGITS)} {bar}"
+    supported = format_supported(number, half_width, _MOST_DIGITS, largest / unit.factor)
+    return f"{supported} {bar}"
 
 
 def format_scalar(ds: Result, name: str, index: int) -> str:
@@ -56,8 +61,13 @@ def format_scalar(ds: Result, name: str, index: int) -> str:
     return format_with_error(float(ds[name][index]), error, SCALARS[name].units)
 
 
-def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
-    """Format a number down to the second digit of its error, in the same unit."""
+def format_supported(
+    value: float, error: float, digits: int = _DIGITS, largest: float = math.inf
+) -> str:
+    """Format a number down to the second digit of its error, in the same unit.
+
+    A question mark stands for one whose error is larger than the largest of all such numbers.
+    """
     if math.isnan(value) or math.isnan(error) or error <= 0:
         return format_number(value, digits)
     if math.isinf(error):
@@ -66,6 +76,8 @@ def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
     rounded = round(value / 10.0**last) * 10.0**last
     if rounded == 0:
         return "0"
+    if error > largest:
+        return UNKNOWN
     return format_number(rounded, min(max(_leading(rounded) - last + 1, 1), digits))
 
 

@@ -16,6 +16,7 @@ from viscontact.mechanics.contact.body_edge import Outline, trace_outline
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import RunAxis, run_axis
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import time_labels
@@ -171,8 +172,8 @@ def _nearest(stored: Floats, times: ArrayLike, figure: str, axis: RunAxis) -> Se
 def _ranked(stored: Floats, count: int) -> Sequence[int]:
     """Some speeds from the slowest to the fastest; a single one is the fastest."""
     order = np.argsort(stored)
-    ranks = np.linspace(stored.size - 1, 0, min(count, stored.size)).round().astype(int)
-    return [int(order[rank]) for rank in ranks[::-1]]
+    ranks = shown_rows(stored.size, count) if count > 1 else [-1]
+    return [int(order[rank]) for rank in ranks]
 
 
 def _spread(stored: Floats, scalars: xr.Dataset, count: int) -> Sequence[int]:

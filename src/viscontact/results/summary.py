@@ -98,10 +98,11 @@ def _row(ds: Result, name: str) -> SummaryRow:
     at_largest = int(np.nanargmax(np.abs(values)))
     unit = readable_unit(SCALARS[name].units, float(values[at_largest]))
     # The error of a zero is compared with the largest value.
-    scale = NEGLIGIBLE * float(np.abs(values[at_largest]))
-    errors = np.where((values == 0) & (errors <= scale), 0.0, errors)
+    most = float(np.abs(values[at_largest]))
+    errors = np.where((values == 0) & (errors <= NEGLIGIBLE * most), 0.0, errors)
     first, last, largest = (
-        format_with_error_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
+        format_with_error_in(unit, float(values[k]), float(errors[k]), most)
+        for k in (0, -1, at_largest)
     )
     found = largest_error(ds, name)
     error, part, when = _largest_error(found, unit, run_axis(ds))

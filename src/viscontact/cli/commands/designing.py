@@ -14,7 +14,7 @@ Changes = Annotated[
     typer.Option(
         "--change",
         metavar="KEY=LOW:HIGH[:log]",
-        help="Range of a parameter, e.g. indenter.crown_radius='20 mm:2 m:log', or its values, "
+        help="Range of a parameter, e.g. indenter.radius='5 mm:50 mm:log', or its values, "
         "KEY=A,B,...; repeated for each parameter.",
     ),
 ]
@@ -32,8 +32,8 @@ Scatter = Annotated[
         "--scatter",
         metavar="KEY=LOW:HIGH",
         help="Scatter, of which the worst corner counts: values, e.g. "
-        "material.poisson_ratio=0.36:0.40 or '0.38 ± 0.02', or deviations of a changed parameter, "
-        "e.g. indenter.crown_radius='-2 mm:2 mm' or '± 2 mm'.",
+        "load.force='9 N:11 N' or '10 N ± 1 N', or deviations of a changed parameter, e.g. "
+        "indenter.radius='-2 mm:2 mm' or '± 2 mm'.",
     ),
 ]
 Constraints = Annotated[

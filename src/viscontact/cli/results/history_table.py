@@ -170,7 +170,8 @@ def _cells(
         return [format_number(float(value)) for value in values]
     bars = error[rows] / factor
     pairs = [(float(v), float(e)) for v, e in zip(values, bars, strict=True)]
-    numbers = [format_supported(*pair) for pair in pairs]
+    largest = _largest_value(ds, name) / factor
+    numbers = [format_supported(*pair, largest=largest) for pair in pairs]
     if not errors:
         return numbers
     # Below its number; none where the number is a dash.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -27,6 +28,9 @@ from viscontact.units.formatting import ReadableUnit, format_quantity, readable_
 
 #: Largest number of runs named with a warning.
 _NAMED = 3
+
+#: Where the name of a run goes on in the next line: before a value, which is not cut.
+_AT_VALUE = re.compile(r"(?<==)(?=\S)")
 
 
 @dataclass(frozen=True)
@@ -61,10 +65,14 @@ def print_table(runs: Sequence[Ended]) -> None:
     verdicts = list(_verdict_columns(found))
     names = [each.job.name for each in runs]
     title = f"largest values over {over}"
-    whole = _table(names, [*states, *values, *verdicts], title)
-    parts = [whole]
-    if values and _width(whole, console) > console.width:
-        parts = [_table(names, [*states, *verdicts]), _table(names, values, title)]
+    split = (
+        bool(values)
+        and _width(_table(names, [*states, *values, *verdicts]), console) > console.width
+    )
+    groups = [[*states, *verdicts], values] if split else [[*states, *values, *verdicts]]
+    if any(_width(_table(names, group), console) > console.width for group in groups):
+        names = [_AT_VALUE.sub("\n", name) for name in names]
+    parts = [_table(names, group, title if group is groups[-1] else None) for group in groups]
     for part in parts:
         console.print(part, end="\n" if part is parts[-1] else "\n\n")
     for line in _warnings(runs, found):

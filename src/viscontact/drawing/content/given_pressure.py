@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.drawing.content.panel import Axis, Curve, Ink, Panel
+from viscontact.results.shown_rows import shown_rows
 from viscontact.units.formatting import format_quantity, readable_unit, time_labels
 from viscontact.units.numbers import finite_array
 
@@ -27,7 +28,7 @@ def pressure_panels(
             "vc.under_pressure"
         )
     stored = results["time"].values
-    chosen = np.linspace(0, stored.size - 1, min(_MOST, stored.size)).round().astype(int)
+    chosen = shown_rows(stored.size, _MOST)
     if times is not None:
         wanted = finite_array(f"{figure}: times", times, "s").ravel()
         chosen = np.unique([int(np.abs(stored - each).argmin()) for each in wanted])

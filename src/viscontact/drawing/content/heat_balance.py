@@ -19,6 +19,7 @@ from viscontact.drawing.content.panel import (
     Mark,
     Panel,
 )
+from viscontact.results.shown_rows import shown_rows
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
 from viscontact.units.temperatures import in_celsius
 
@@ -34,7 +35,7 @@ _LOGARITHMIC = 50.0
 def _shown_speeds(table: xr.Dataset) -> xr.Dataset:
     """Rows of a few speeds with a known power, from the slowest to the fastest."""
     rows = np.flatnonzero(np.isfinite(table["power_at"].values).any(axis=1))
-    chosen = rows[np.linspace(0, rows.size - 1, min(_MOST, rows.size)).round().astype(int)]
+    chosen = rows[shown_rows(rows.size, _MOST)]
     return table.isel(speed=chosen)
 
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.drawing.content.map import Maps, maps_at
 from viscontact.results.fretting import fretting_cycles, require_grip
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.snapshots import Snapshot, field_at, field_times
 from viscontact.units.formatting import format_quantity
 
@@ -66,7 +67,7 @@ def slip_instants(run: xr.Dataset, figure: str) -> Floats:
     names = ("tangential_force_x", "tangential_force_y", "torque")
     pulled = np.any([np.nan_to_num(scalars[name].values) != 0 for name in names], axis=0)
     shown = stored[pulled] if pulled.any() else stored
-    chosen = np.linspace(0, shown.size - 1, min(_INSTANTS, shown.size)).round().astype(int)
+    chosen = shown_rows(shown.size, _INSTANTS)
     return np.asarray(shown[chosen])
 
 

@@ -15,6 +15,7 @@ from viscontact.drawing.content.window import Window
 from viscontact.drawing.figures import entry_of
 from viscontact.drawing.plotly.parts import Part, drawn, numbers
 from viscontact.results.run_axis import TIME
+from viscontact.results.shown_rows import shown_rows
 from viscontact.results.snapshots import labels_of
 from viscontact.units.formatting import ReadableUnit, format_compact
 from viscontact.units.systems import AUTOMATIC
@@ -224,5 +225,5 @@ def _outlined_instants(maps: Maps) -> list[int]:
     """Instants whose outline is drawn: some in contact, from the first to the last."""
     touching = [index for index, each in enumerate(maps.snapshots) if each.touching]
     most = _OUTLINES_OF_MANY if maps.many_spots else _OUTLINES
-    chosen = np.linspace(0, len(touching) - 1, min(most, len(touching))).round().astype(int)
+    chosen = shown_rows(len(touching), most)
     return [touching[index] for index in chosen]
