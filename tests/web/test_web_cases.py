@@ -306,6 +306,38 @@ def test_a_sheet_is_uploaded_and_its_fit_is_drawn_with_its_misfit(
     client.delete("/api/files/dma.xlsx")
 
 
+def test_the_contents_of_a_file_say_where_a_case_names_it(
+    client: TestClient, tmp_path: Path
+) -> None:
+    heights = tmp_path / "map.npy"
+    np.save(heights, np.random.default_rng(1).normal(size=(8, 6)) * 1e-6)
+    files = {
+        "map.npy": heights.read_bytes(),
+        "dma.xlsx": oscillation(tmp_path),
+        "creep.csv": b"time [s],creep_compliance [1/MPa]\n1,1\n10,2\n100,3\n",
+        "load.csv": b"time [s],force [N]\n0,0\n1,2\n",
+        "curve.csv": b"time [s],position [um],deflection [nm]\n0,0,0\n1,1,2\n2,2,4\n",
+        "notes.txt": b"to be done\n",
+    }
+    found = {}
+    for name, content in files.items():
+        assert client.post(f"/api/files?name={name}", content=content).status_code == 201
+        found[name] = client.get(f"/api/files/{name}/contents")
+        client.delete(f"/api/files/{name}")
+    sections = {name: answer.json().get("section") for name, answer in found.items()}
+    assert sections == {
+        "map.npy": {"shape": "height-map", "file": "map.npy"},
+        "dma.xlsx": {"law": "table", "file": "dma.xlsx"},
+        "creep.csv": {"law": "table", "file": "creep.csv"},
+        "load.csv": {"kind": "history", "file": "load.csv"},
+        "curve.csv": None,
+        "notes.txt": None,
+    }
+    assert found["curve.csv"].json()["holds"] == "a force curve"
+    assert found["notes.txt"].status_code == 422
+    assert client.get("/api/files/notes.txt/contents").status_code == 404
+
+
 @pytest.mark.slow
 def test_fits_of_layers_are_drawn_below_the_curves(client: TestClient, tmp_path: Path) -> None:
     client.post("/api/files?name=dma.xlsx", content=oscillation(tmp_path))

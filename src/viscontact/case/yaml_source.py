@@ -146,7 +146,7 @@ def _refuse_data(text: str) -> None:
     if "NUMPY" in start[:8] or numbers:
         raise SourceError(
             "is no case file, but holds numbers, as a table or a height map does; a case names it "
-            "by a key 'file', and on the page it is given by Upload"
+            "by a key 'file', and the page takes it by Open"
         )
 
 

@@ -68,7 +68,7 @@ TABLE = (
     _fields(
         "pressure-map",
         compare="compare_pressure_maps",
-        takes=("times", "style"),
+        takes=("times", "style", "scale"),
         reported=Reported("pressure", "Pressure", "pressure_map"),
     ),
     _fields(

@@ -210,6 +210,11 @@ def _without_fields(ds: xr.Dataset) -> str:
     )
 
 
+#: Words of the button that changes the colours of the map.
+_OWN_SCALE = "A scale for each"
+_SCALES = {"data_each": _OWN_SCALE, "data_all": "One scale for all"}
+
+
 def _map(maps: Maps) -> Element:
     count = len(maps.snapshots)
     slider = element(
@@ -227,6 +232,7 @@ def _map(maps: Maps) -> Element:
         element("button", "Play", type="button", id="play"),
         slider,
         element("output", "", id="instant", for_="slider", data_title="map"),
+        element("button", _OWN_SCALE, type="button", id="map-scale", **_SCALES),
         class_="controls",
     )
     account = element("span", "", data_note="map")

@@ -241,3 +241,19 @@ def test_stress_sections_of_a_contact_that_has_grown_have_axes_of_their_own() ->
     first, last = FIGURES["stress-section"](results).axes[:2]
     assert first.get_ylim()[0] < last.get_ylim()[0] / 2
     assert first.get_xlabel() == last.get_xlabel() != ""
+
+
+def test_panels_have_one_scale_of_colours_or_one_each() -> None:
+    ds = maxwell_sphere((0.0, 1.0, 10.0), cells=48)
+    peaks = ds["pressure"].max(("x", "y")).values
+    for scale, bars in (("all", 1), ("each", 3)):
+        figure = FIGURES["pressure-map"](ds, scale=scale)
+        labelled = [axes for axes in figure.axes if "Pressure" in axes.get_ylabel()]
+        assert len(labelled) == bars
+    highest = [axes.get_ylim()[1] for axes in labelled]
+    unit = {"kPa": 1e3, "MPa": 1e6}[labelled[0].get_ylabel().split("[")[1][:-1]]
+    # Levels are round, and the last one lies above the peak by a step at most.
+    for top, peak in zip(highest, peaks, strict=True):
+        assert 1.0 <= top * unit / peak < 1.3
+    with pytest.raises(ValueError, match="scale must be 'all' or 'each', got 'own'"):
+        FIGURES["pressure-map"](ds, scale="own")

@@ -43,3 +43,15 @@ def test_a_high_map_is_not_widened_to_the_page() -> None:
     high["gap"] = high["gap"].transpose(..., "x", "y")
     for ds, constrained in ((roller(times=TIMES), "range"), (high, "domain")):
         assert pressure_map(maps_over(ds)).layout.xaxis.constrain == constrained
+
+
+def test_each_frame_states_the_colours_of_its_own_and_those_of_all() -> None:
+    ds = maxwell_sphere(TIMES, cells=64)
+    figure = pressure_map(maps_over(ds))
+    limits = [frame.layout.meta["limits"] for frame in figure.frames]
+    peaks = ds["pressure"].max(("x", "y")).values
+    heat = figure.data[0]
+    for each, peak in zip(limits, peaks, strict=True):
+        assert each["all"] == [heat.zmin, heat.zmax]
+        assert each["each"] == [0.0, pytest.approx(peak / peaks.max() * heat.zmax)]
+    assert len({each["each"][1] for each in limits}) == len(TIMES)

@@ -60,6 +60,14 @@ Style = Annotated[
         "by default colours for a contact of many spots.",
     ),
 ]
+Scale = Annotated[
+    str | None,
+    typer.Option(
+        "--scale",
+        metavar="all|each",
+        help="Colours of one scale in all panels of a pressure map, or of one for each.",
+    ),
+]
 Over = Annotated[
     str | None,
     typer.Option(
@@ -94,6 +102,7 @@ def plot(
     along: Along = None,
     at: At = None,
     style: Style = None,
+    scale: Scale = None,
     theory: Theory = None,
     over: Over = None,
     seconds: Annotated[
@@ -112,7 +121,7 @@ def plot(
 
     options: dict[str, str | float | None] = {
         **{"width": width, "along": along, "at": at, "style": style, "theory": theory},
-        **{"over": over},
+        **{"scale": scale, "over": over},
         **{"seconds": seconds, "fps": fps},
     }
     draw(directory, figure, times or [], output, options, speeds or [])
@@ -136,9 +145,10 @@ def compare(
     along: Along = None,
     at: At = None,
     style: Style = None,
+    scale: Scale = None,
 ) -> None:
     """Overlay several runs in one figure."""
     from viscontact.cli.results.figures import draw_comparison
 
-    options = {"width": width, "along": along, "at": at, "style": style}
+    options = {"width": width, "along": along, "at": at, "style": style, "scale": scale}
     draw_comparison(directories, figure, times or [], output, options, speeds or [])

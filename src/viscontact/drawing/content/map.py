@@ -126,6 +126,15 @@ class Maps:
         ordinary = max(each.ordinary for each in touching) if self.peak_note else None
         return pressure_scale(float(low), float(high), ordinary, units=units)
 
+    def own_scales(self, units: Units = readable_unit) -> tuple[ColourScale, ...]:
+        """Scale of each map for itself; without contact there that of all."""
+        return tuple(
+            replace(self, maps=(each,)).scale(units)
+            if each.snapshot.touching
+            else self.scale(units)
+            for each in self.maps
+        )
+
     @property
     def start(self) -> int:
         """The instant that is shown first: the last one in contact."""

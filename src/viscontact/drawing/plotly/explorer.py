@@ -170,7 +170,8 @@ def _controls(maps: Maps, look: Look) -> Part:
     """Slider over the instants, and buttons that play and stop them; none for one instant."""
     if len(maps.snapshots) < 2:
         return {}
-    return {"sliders": [_slider(maps, look)], "updatemenus": [_buttons(look)]}
+    menus = [_played(look), _coloured(maps, look)]
+    return {"sliders": [_slider(maps, look)], "updatemenus": menus}
 
 
 def _slider(maps: Maps, look: Look) -> Part:
@@ -195,17 +196,37 @@ def _slider(maps: Maps, look: Look) -> Part:
     }
 
 
-def _buttons(look: Look) -> Part:
+def _played(look: Look) -> Part:
+    """Buttons that play the instants and stop."""
     played = _AT_ONCE | {"fromcurrent": True, "frame": {"duration": _PAUSE, "redraw": True}}
     buttons = [
         {"label": "Play", "method": "animate", "args": [None, played]},
         {"label": "Stop", "method": "animate", "args": [[None], _NOW]},
     ]
+    return _buttons(look, buttons, 1.0) | {"showactive": False}
+
+
+def _coloured(maps: Maps, look: Look) -> Part:
+    """Buttons that give all instants one scale of colours, or each its own."""
+    scale = maps.scale(look.unit)
+    low, high = scale.unit(scale.limits).tolist()
+    choices: dict[str, Part] = {
+        "One scale": {"zauto": False, "zmin": low, "zmax": high},
+        "A scale for each": {"zauto": True},
+    }
+    buttons: list[Part] = [
+        {"label": label, "method": "restyle", "args": [values, [0]]}
+        for label, values in choices.items()
+    ]
+    return _buttons(look, buttons, 0.75)
+
+
+def _buttons(look: Look, buttons: list[Part], end: float) -> Part:
+    """Buttons in a row below the figures, with their right end at a part of the width."""
     return {
         "type": "buttons",
         "direction": "left",
-        "showactive": False,
-        "x": 1.0,
+        "x": end,
         "xanchor": "right",
         "y": 0.0,
         "yanchor": "top",

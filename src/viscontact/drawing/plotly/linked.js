@@ -37,6 +37,12 @@ export function draw(box, figure) {
   return window.Plotly.react(box, data, structuredClone({ ...layout, dragmode }), config(meta));
 }
 
+// Colours of the map go over the values of all its frames, or over those of the one shown.
+let scale = "all";
+function coloured({ data, layout: { meta } }) {
+  if (meta.limits) [data[0].zmin, data[0].zmax] = meta.limits[scale];
+}
+
 // Shows a frame in all figures that have it.
 export function show(name) {
   for (const box of boxes()) {
@@ -45,6 +51,7 @@ export function show(name) {
     const { data, layout } = box.figure;
     frame.data.forEach((part, index) => Object.assign(data[frame.traces[index]], part));
     Object.assign(layout, frame.layout);
+    coloured(box.figure);
     draw(box, box.figure);
   }
 }
@@ -79,6 +86,19 @@ export function followScale(button) {
   });
 }
 
+// A button that gives each frame of the map colours of its own, or all the same; it has the words for both.
+export function followColours(button) {
+  const tell = () => { button.textContent = button.dataset[scale === "all" ? "each" : "all"]; };
+  button.addEventListener("click", () => {
+    scale = scale === "all" ? "each" : "all";
+    tell();
+    const { figure } = place("map");
+    coloured(figure);
+    draw(place("map"), figure);
+  });
+  tell();
+}
+
 // The height of a figure in true shape depends on the width, which changes with the window.
 let settling = null;
 window.addEventListener("resize", () => {
@@ -91,6 +111,7 @@ export function open(figures) {
   if (byFinger()) place("zoom-hint")?.remove();
   if (place("slider")) followSlider(place("slider"), place("play"));
   if (place("time-scale")) followScale(place("time-scale"));
+  if (place("map-scale")) followColours(place("map-scale"));
   const drawNext = () => {
     const figure = figures.shift();
     if (!figure) { document.documentElement.dataset.drawn = "yes"; return; }

@@ -115,6 +115,8 @@ def map_remarks(maps: Maps) -> str:
 def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[Part], Part]]:
     """Yield what differs between the instants: parts of the traces, and of the layout."""
     shape, headings = _shape(maps, around=170, most=600), _headings(maps, look)
+    everywhere = scale.unit(scale.limits).tolist()
+    own = [scale.unit(each.limits).tolist() for each in maps.own_scales(look.unit)]
     unit, reference = maps.axes(look.unit)[0].unit, maps.reference
     for index, each in enumerate(maps.maps):
         z = numbers(scale.unit(maps.cells(index, MOST_CELLS).T))
@@ -126,6 +128,7 @@ def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[P
         traces: list[Part] = [{"type": "heatmap", "z": z}, *(_line(rim, unit) for rim in rims)]
         note = _note(each, scale, maps.window)
         meta = {"name": "map", "title": headings[index], "note": note} | shape
+        meta["limits"] = {"all": everywhere, "each": own[index]}
         layout: Part = {"meta": meta}
         if each.body is not None:
             x, y = unit(each.body.axis).tolist()

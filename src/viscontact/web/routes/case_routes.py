@@ -28,6 +28,7 @@ from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import CaseReader, filled, form_values
 from viscontact.web.cases.curve_fits import CurveFitRequest, fit_of_upload
 from viscontact.web.cases.drawings import drawn_as_svg
+from viscontact.web.cases.file_contents import contents_of_upload
 from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
 from viscontact.web.workspace.pictures import PictureChoice
@@ -206,6 +207,12 @@ async def put_file(
             upload.write(part)
         await run_in_threadpool(upload.keep)
     return {"name": name, "size": upload.size}
+
+
+@router.get("/files/{name}/contents")
+async def contents(calculator: AppCalculator, request: Request, name: str) -> dict[str, Any]:
+    """Tell what a file holds, and the section of a case that names it."""
+    return await calculator.about_case(request, contents_of_upload, name)
 
 
 @router.delete("/files/{name}", status_code=204)

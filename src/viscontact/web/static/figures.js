@@ -1,7 +1,7 @@
 // Figures of a run, made by the server: pressure and sections, friction, histories, loops.
 
 import { make, place } from "./dom.js";
-import { draw, followScale, followSlider, show } from "./linked.js";
+import { draw, followColours, followScale, followSlider, show } from "./linked.js";
 import { get } from "./server.js";
 import { isDark } from "./theme.js";
 import { chosenSystem } from "./units.js";
@@ -29,6 +29,7 @@ export function plotly() {
 export function setUpFigures() {
   followSlider(place("instant-slider"), place("play"));
   followScale(place("time-scale"));
+  followColours(place("map-scale"));
 }
 
 // Answers may come late: only those to the last request are drawn.

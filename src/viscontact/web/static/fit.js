@@ -44,6 +44,13 @@ export function setUpFit() {
   place("units").addEventListener("change", () => shown && fit());
 }
 
+// Takes a file that is on the server.
+export function fitFile(name) {
+  place("fit").open = true;
+  input("file").value = name;
+  place("fit").scrollIntoView({ behavior: "smooth" });
+}
+
 const input = (name) => place(`fit-${name}`);
 
 function field(name) {

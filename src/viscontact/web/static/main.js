@@ -2,12 +2,13 @@
 
 import { check, checked, look, refuse, setUpChecking } from "./checking.js";
 import {
-  caseText, caseValues, draft, isRead, keptText, renew, replaceText, useExampleTitles,
+  caseText, caseValues, changed, draft, isRead, keptText, renew, replaceText, setValue,
+  useExampleTitles, valueAt,
 } from "./draft.js";
 import { make, place, settled } from "./dom.js";
 import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
 import { setUpFigures } from "./figures.js";
-import { setUpFit } from "./fit.js";
+import { fitFile, setUpFit } from "./fit.js";
 import { drawForm, useMaterials } from "./form.js";
 import { START } from "./hints.js";
 import { goToProblem } from "./problems.js";
@@ -15,7 +16,7 @@ import { drawList, drawProgress, setUpProgress } from "./progress.js";
 import { drawResults } from "./results.js";
 import { findAgain, list, refer, runs, start, state } from "./runs.js";
 import { useSchema } from "./schema.js";
-import { connection, get, isAboutCase } from "./server.js";
+import { connection, get, isAboutCase, upload } from "./server.js";
 import { onTheme, setUpTheme } from "./theme.js";
 import { systemNames, useSystem, useUnits } from "./units.js";
 
@@ -52,6 +53,25 @@ async function load(yaml, name) {
   const back = caseText();
   await write(yaml);
   notify(`Loaded: ${name}.`, () => write(back));
+}
+
+// Opens a case with the files that it names, or takes files with data to where a case has them.
+async function openFiles(files) {
+  const isCase = ({ name }) => /\.ya?ml$/i.test(name);
+  const [opened] = files.filter(isCase), others = files.filter((each) => !isCase(each));
+  const names = [];
+  for (const each of others) names.push((await upload(each)).name);
+  if (opened) { await load(await opened.text(), opened.name); return; }
+  for (const name of names) {
+    const { holds, path, section } = await get(`/api/files/${encodeURIComponent(name)}/contents`);
+    if (!section) { fitFile(name); notify(`${name}: ${holds}, for the fit below.`); continue; }
+    const back = caseText();
+    // A material keeps what its table does not state.
+    const { poisson_ratio: ratio } = valueAt(path) ?? {};
+    setValue(path, path[0] === "material" && ratio !== undefined ? { ...section, poisson_ratio: ratio } : section);
+    changed("structure");
+    notify(`${name}: ${holds}, now the ${path[0]} of the case.`, () => write(back));
+  }
 }
 
 function redrawForm() {
@@ -102,10 +122,10 @@ function setUpCase() {
   });
   const file = place("open-file");
   place("open").addEventListener("click", () => file.click());
-  file.addEventListener("change", async () => {
-    const [chosen] = file.files;
+  file.addEventListener("change", () => {
+    const chosen = [...file.files];
     file.value = "";
-    if (chosen) load(await chosen.text(), chosen.name);
+    openFiles(chosen).catch(complain);
   });
   place("save").addEventListener("click", () => {
     const address = URL.createObjectURL(new Blob([caseText()], { type: "application/yaml" }));

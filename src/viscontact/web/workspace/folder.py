@@ -98,12 +98,16 @@ class Folder:
         """Receive a file, in place of one of the same name."""
         return self._uploads.receiving(self._file(name))
 
-    def remove_file(self, name: str) -> None:
-        """Remove a file."""
+    def stored_file(self, name: str) -> Path:
+        """Return the path of a file; RequestError if there is none."""
         path = self._file(name)
         if not path.is_file():
             raise RequestError(404, f"there is no file {name!r}")
-        path.unlink()
+        return path
+
+    def remove_file(self, name: str) -> None:
+        """Remove a file."""
+        self.stored_file(name).unlink()
 
     def new_run(self, text: str, entry: RunEntry, data: Mapping[Path, str]) -> str:
         """Store a case to be run and its files; return the name of the run."""

@@ -56,7 +56,10 @@ def problem_of(line: str, path: Path) -> InputProblem:
     # A key that is missing in the file stands behind its section.
     if where and (key := _KEY.match(line)) and key[1].startswith(f"{where}."):
         where, line = key[1], line[key.end() :]
-    return InputProblem(without_folder(line, path.parent), where, number)
+    message = without_folder(line, path.parent)
+    if message.startswith("no such file"):
+        message += "; upload it, or open it together with the case"
+    return InputProblem(message, where, number)
 
 
 def without_folder(text: str, folder: Path) -> str:

@@ -34,6 +34,8 @@ from viscontact.units.formatting import format_compact
 _NAME = "pressure-map"
 #: Appearance of the pressure: labelled iso-contours, or a colour for each cell.
 MapStyle = Literal["contours", "colours"]
+#: Colours of one scale in all panels, or of one for each.
+MapScale = Literal["all", "each"]
 #: Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
 #: Number of colours of cells.
@@ -46,6 +48,7 @@ def pressure_map(
     times: ArrayLike | None = None,
     width: Width | None = None,
     style: MapStyle | None = None,
+    scale: MapScale = "all",
 ) -> Figure:
     """Draw the pressure, one panel per instant, with the outline of the contact.
 
@@ -62,14 +65,17 @@ def pressure_map(
     style : {"contours", "colours"}, optional
         Labelled iso-contours, or the mean pressure of each cell in colours up to the largest. By
         default colours for a contact of more than a dozen spots, contours otherwise.
+    scale : {"all", "each"}, optional
+        Colours of one scale in all panels, or of one for each, which shows small pressures beside
+        large ones.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Panels with common axes and pressure levels. A long narrow contact is drawn with its
-        width stretched by the factor printed in the first panel. A note there
-        states where the peak pressure depends on the mesh. A cross is the axis of a moving body, an
-        arrow the direction of its motion.
+        Panels with common axes, and common pressure levels unless each has its own. A long narrow
+        contact is drawn with its width stretched by the factor printed in the first panel. A note
+        there states where the peak pressure depends on the mesh. A cross is the axis of a moving
+        body, an arrow the direction of its motion.
 
     Raises
     ------
@@ -88,8 +94,12 @@ def pressure_map(
     """
     if style not in (None, *get_args(MapStyle)):
         raise ValueError(f"{_NAME}: style must be 'contours' or 'colours', got {style!r}")
+    if scale not in get_args(MapScale):
+        raise ValueError(f"{_NAME}: scale must be 'all' or 'each', got {scale!r}")
     maps = maps_at(results, times, _NAME, count=4)
-    return _draw(maps, width, in_colours=maps.many_spots if style is None else style == "colours")
+    scales = (maps.scale(),) if scale == "all" else maps.own_scales()
+    in_colours = maps.many_spots if style is None else style == "colours"
+    return _draw(maps, width, scales, in_colours=in_colours)
 
 
 def compare_pressure_maps(
@@ -98,31 +108,37 @@ def compare_pressure_maps(
     times: ArrayLike | None = None,
     width: Width | None = None,
     style: MapStyle | None = None,
+    scale: MapScale = "all",
 ) -> Figure:
     """Draw the pressure maps of several runs in one figure: `pressure_map` of a mapping."""
-    return pressure_map(runs, times=times, width=width, style=style)
+    return pressure_map(runs, times=times, width=width, style=style, scale=scale)
 
 
-def _draw(maps: Maps, width: Width | None, *, in_colours: bool) -> Figure:
+def _draw(
+    maps: Maps, width: Width | None, scales: tuple[ColourScale, ...], *, in_colours: bool
+) -> Figure:
+    """Draw the maps in one scale, or in one each."""
     figure, panels = map_panels(maps, width)
-    scale = maps.scale()
     draw = _draw_cells if in_colours else draw_contours
+    own = scales if len(scales) > 1 else scales * len(panels)
     lines = [
-        draw(axes, each, maps.window, scale) for axes, each in zip(panels, maps.maps, strict=True)
+        draw(axes, each, maps.window, scale)
+        for axes, each, scale in zip(panels, maps.maps, own, strict=True)
     ]
     for axes, each in zip(panels, maps.maps, strict=True):
         style.add_heading(axes, each.heading)
         mark_body(axes, each.body, maps.window)
     note = maps.note if in_colours else "; ".join(filter(None, (maps.note, maps.zone_note)))
     style.add_heading(panels[0], note, aside=True)
-    colours = _cell_colours(scale) if in_colours else _level_colours(scale)
-    extend = "max" if scale.is_open and not in_colours else "neither"
-    bar = figure.colorbar(colours, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
-    style.dress_colour_bar(bar, scale.label)
+    for beside, scale in zip(panels if len(scales) > 1 else [panels], scales, strict=True):
+        colours = _cell_colours(scale) if in_colours else _level_colours(scale)
+        extend = "max" if scale.is_open and not in_colours else "neither"
+        bar = figure.colorbar(colours, ax=beside, shrink=0.9, aspect=25, pad=0.02, extend=extend)
+        style.dress_colour_bar(bar, scale.label)
     figure.draw_without_rendering()  # The layout gives the room for texts.
     style.arrange_headings(figure)
     figure.draw_without_rendering()
-    for axes, each, contours in zip(panels, maps.maps, lines, strict=True):
+    for axes, each, contours, scale in zip(panels, maps.maps, lines, own, strict=True):
         if contours is not None:
             _label_contours(axes, contours, each.snapshot, maps.window, scale)
     return figure
