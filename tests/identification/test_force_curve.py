@@ -195,7 +195,7 @@ def test_bad_curves_are_refused(change, why):
 
 
 def test_other_tips_and_a_reach_out_of_range_are_refused():
-    with pytest.raises(ValueError, match="must be a Sphere, a Cone or a round"):
+    with pytest.raises(ValueError, match="must be a Sphere, a Cone, a Pyramid with"):
         find_contact(elastic_curve(), Paraboloid(1e-6, 2e-6))
     with pytest.raises(ValueError, match=r"reach must lie between 0 and 1, got 1\.5"):
         find_contact(elastic_curve(), SPHERE, reach=1.5)

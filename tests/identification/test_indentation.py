@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from functools import cache
 
 import numpy as np
@@ -10,13 +12,15 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.stats import t as student
 
+import viscontact as vc
 from campaigns import fewest_held, tried
 from closeness import close_to
 from viscontact import AccuracyWarning, reference
 from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.identification import IndentationRecord, fit_indentation, material_section
-from viscontact.indenters import Cone, FlatPunch, Paraboloid, Sphere
+from viscontact.identification.record import elastic_force
+from viscontact.indenters import Cone, FlatPunch, Paraboloid, Pyramid, Sphere
 from viscontact.laws import Elastic, Maxwell, PowerLaw, Zener
 
 RADIUS, NU = 5e-6, 0.45
@@ -98,6 +102,40 @@ def test_hertz_sneddon_and_boussinesq_give_youngs_modulus_back():
         record = IndentationRecord(indenter, t, d, contact_modulus * unit)
         fit = fit_indentation(record, "elastic", poisson_ratio=NU)
         assert fit.law.shear_modulus == close_to(1e6, rel=1e-6)
+
+
+@pytest.mark.parametrize("faces", [3, 4])
+def test_a_pyramid_on_a_creeping_half_space_gives_its_law_back(faces):
+    """Loading and unloading of the whole contact on cells, which know nothing of a cone."""
+    pyramid, law = Pyramid(math.radians(70), faces), Zener(1e6, 1e6, 1e6)
+    t, d = triangle(21)
+    size = (10 if faces == 3 else 7.5) * d.max()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)
+        ds = vc.simulate(
+            *(pyramid, Material(law, NU), vc.ApproachHistory(t[[0, 10, 20]], d[[0, 10, 20]])),
+            *(vc.Grid((72, 72), (size, size)), t),
+            errors=False,
+            fields="none",
+        )
+    record = IndentationRecord(pyramid, t, d, ds["force"].values)
+    fit = fit_indentation(record, "zener", poisson_ratio=NU)
+    assert fit.residual < 4e-3
+    times = np.linspace(0.2, 4.0, 10)
+    np.testing.assert_allclose(fit.law(times), law(times), rtol=8e-3)
+
+
+def test_the_force_of_a_pyramid_is_near_the_one_that_bilodeau_approximates():
+    """Bilodeau 1992: 0.7453 of four faces; and above that of the cone of equal area."""
+    d, angle = np.array([1e-6]), math.radians(35)
+    for faces in (3, 4):
+        [force] = elastic_force(Pyramid(angle, faces), d)
+        area = faces * math.tan(math.pi / faces) / math.pi  # over that of the cone inside
+        cone = 2 / math.pi * math.tan(angle) * math.sqrt(area) * 1e-12
+        assert 1.02 < force / cone < 1.09
+    assert elastic_force(Pyramid(angle, 4), d)[0] == close_to(
+        0.7453 * math.tan(angle) * 1e-12, rel=0.011
+    )
 
 
 CASES = [
@@ -229,7 +267,10 @@ T, D = triangle(21)
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: IndentationRecord(Paraboloid(1.0, 2.0), T, D, D), "a Sphere, a Cone or a round"),
+        (
+            lambda: IndentationRecord(Paraboloid(1.0, 2.0), T, D, D),
+            "a Sphere, a Cone, a Pyramid with",
+        ),
         (
             lambda: IndentationRecord(FlatPunch(half_length=1.0, half_width=1.0), T, D, D),
             "round FlatPunch",

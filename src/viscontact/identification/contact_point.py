@@ -121,7 +121,7 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
     ----------
     curve : ForceCurve
         The measured curve; it begins before contact.
-    indenter : Sphere, Cone or FlatPunch
+    indenter : Sphere, Cone, Pyramid or FlatPunch
         The tip; a punch must be round.
     reach : float, optional
         Part of the largest deflection up to which rows count, between 0 and 1. With a smaller part

@@ -127,7 +127,8 @@ Body = Annotated[
         "--indenter",
         metavar="SHAPE",
         help="Indenter of an indentation record: 'sphere 5 um' (radius), 'paraboloid 40 nm' "
-        "(radius of its tip), 'cone 70 deg' (half angle) or 'punch 2 um' (radius).",
+        "(radius of its tip), 'cone 70 deg' (half angle), 'pyramid 35 deg' (of four faces, from "
+        "the axis to a face), berkovich, vickers, cube-corner, or 'punch 2 um' (radius).",
     ),
 ]
 SpringConstant = Annotated[

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions
 from viscontact.bodies.series_fits.shift_rules import RULES
@@ -233,6 +233,14 @@ def _read_option(option: str, text: str, dimension: str) -> float:
         raise ValueError(f"{option}: {error}") from None
 
 
+#: Pyramids whose angle is given by their name.
+_PYRAMIDS = {
+    "berkovich": Pyramid.berkovich,
+    "vickers": Pyramid.vickers,
+    "cube-corner": Pyramid.cube_corner,
+}
+
+
 def read_indenter(text: str) -> Indenter:
     """Return the indenter given behind ``--indenter``."""
     shape, _, size = text.strip().partition(" ")
@@ -243,9 +251,13 @@ def read_indenter(text: str) -> Indenter:
             return Cone(parse_quantity(size, "angle"))
         if shape == "punch":
             return FlatPunch(parse_quantity(size, "length"))
+        if shape == "pyramid":
+            return Pyramid(parse_quantity(size, "angle"), faces=4)
+        if shape in _PYRAMIDS and not size.strip():
+            return _PYRAMIDS[shape]()
     except ValueError as error:
         raise ValueError(f"--indenter: {error}") from None
     raise ValueError(
         f"--indenter: {text!r} is not an indenter; write e.g. 'sphere 5 um', 'paraboloid 40 nm', "
-        "'cone 70 deg' or 'punch 2 um'"
+        "'cone 70 deg', 'pyramid 35 deg', 'berkovich', 'vickers', 'cube-corner' or 'punch 2 um'"
     )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
 from viscontact.case.data_file import is_plain_name
 from viscontact.drawing.content.look import Look
 from viscontact.drawing.plotly.indentation_fits import (
@@ -39,6 +40,7 @@ from viscontact.web.workspace.problems import InputProblem, RequestError, withou
 _TIPS = {
     "sphere": (Sphere, "length"),
     "cone": (Cone, "angle"),
+    "pyramid": (partial(Pyramid, faces=4), "angle"),
     "punch": (FlatPunch, "length"),
 }
 

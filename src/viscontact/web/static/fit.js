@@ -12,7 +12,7 @@ import { chosenSystem } from "./units.js";
 
 const LAWS = ["elastic", "maxwell", "zener", "burgers", "creep-series", "power-law", "power-law-with-instant"];
 // Size of each tip: its name and an example.
-const TIPS = { sphere: ["Radius", "5 um"], cone: ["Half angle", "70 deg"], punch: ["Radius", "2 um"] };
+const TIPS = { sphere: ["Radius", "5 um"], cone: ["Half angle", "70 deg"], pyramid: ["Angle from axis to face", "35 deg"], punch: ["Radius", "2 um"] };
 const FIELDS = {
   file: ["File", "", "JPK curve or map (map.jpk-force-map#12 is its curve 12), or a table with time, position and deflection or force, or with time, approach and force"],
   tip: ["Tip", "", ""],
