@@ -59,7 +59,6 @@ PARTS = {
     "peak_pressure": 0.056, "mean_pressure": 0.0078, "work": 0.009, "force": 0.0,
     "loss_per_cycle": 0.11,
 }  # fmt: skip
-from viscontact.units.formatting import ReadableUnit
 
 
 @pytest.fixture(scope="module")
