@@ -66,6 +66,9 @@ def test_power_laws_are_stated_at_the_time_that_is_asked_for() -> None:
     assert asked.parameters["exponent"] == close_to(0.2, rel=1e-3)
     assert asked.parameters["compliance"] == close_to(1e-3 * 0.01**0.2, rel=2e-3)
     assert float(asked.law(0.5)) == close_to(float(own.law(0.5)), rel=1e-6)
+    # E = 3 G of an incompressible body, in relaxation for the reference time.
+    relaxed = 1 / (2e-3 * 0.01**0.2 * math.gamma(1.2) * math.gamma(0.8))
+    assert asked.in_numbers("").values["youngs_modulus"] == close_to(3 * relaxed, rel=2e-3)
 
 
 def test_reference_time_of_a_law_without_one_is_refused() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -13,11 +14,12 @@ from viscontact.bodies.materials.material import Material
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.identification.force_curve import ForceCurve
+from viscontact.units.display import Plotted
 from viscontact.units.formatting import format_number, format_quantity
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AdhesionFit:
+class AdhesionFit(Plotted):
     """Adhesion of an elastic sphere, fitted to a force curve.
 
     Made by `fit_adhesion`.
@@ -48,6 +50,8 @@ class AdhesionFit:
     widening : float
         Largest factor by which an interval is wider, as the residuals are correlated [-].
     """
+
+    _figure: ClassVar[str] = "fitted_adhesion"
 
     parameters: dict[str, float]
     intervals: dict[str, tuple[float, float]]

@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import ClassVar, Protocol, TypeVar
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.identification.fitted_curve import FittedCurve
-from viscontact.units.display import Displayable
+from viscontact.units.display import Displayable, Plotted
 from viscontact.units.formatting import column_heading, format_quantity
 
 CurveT = TypeVar("CurveT")
@@ -36,7 +36,7 @@ class CurveFit(Protocol):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CurveFits(Displayable):
+class CurveFits(Displayable, Plotted):
     """Laws or adhesion fitted to many curves, of `fit_each`.
 
     Attributes
@@ -55,6 +55,8 @@ class CurveFits(Displayable):
     >>> fits.parameters, fits.values_of("shear_modulus").tolist(), len(fits.failed)
     (('shear_modulus',), [2000.0], 1)
     """
+
+    _figure: ClassVar[str] = "curve_fits"
 
     curves: tuple[FittedCurve, ...]
 

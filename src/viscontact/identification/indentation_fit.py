@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
-from viscontact.bodies.laws import Elastic, Law
+from viscontact.bodies.laws import Elastic, Law, PowerLaw
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.quality import Misfit
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.identification.record import IndentationRecord
-from viscontact.units.display import Displayable
+from viscontact.units.display import Displayable, Plotted
 from viscontact.units.formatting import format_quantity
 
 _TOUCH = 0.05  # of the largest force: smaller ones may be scatter without contact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IndentationFit(Displayable):
+class IndentationFit(Displayable, Plotted):
     """Law fitted to an indentation record.
 
     Made by `fit_indentation`.
@@ -70,6 +71,8 @@ class IndentationFit(Displayable):
     ('2e+06 Pa', True)
     """
 
+    _figure: ClassVar[str] = "fitted_indentation"
+
     material: Material
     parameters: dict[str, float]
     intervals: dict[str, tuple[float, float]]
@@ -108,7 +111,10 @@ class IndentationFit(Displayable):
         return float(np.sqrt(np.nanmean(self.residuals**2)))
 
     def in_numbers(self, name: str) -> FittedCurve:
-        """Return the fit as a row of `CurveFits`, of an elastic body with Young's modulus.
+        """Return the fit as a row of `CurveFits`, with Young's modulus.
+
+        That of a power law is the relaxation modulus in tension at its reference time, without an
+        interval; laws with several times have none.
 
         Parameters
         ----------
@@ -128,6 +134,10 @@ class IndentationFit(Displayable):
             values["youngs_modulus"] = factor * values["shear_modulus"]
             low, high = intervals["shear_modulus"]
             intervals["youngs_modulus"] = (factor * low, factor * high)
+            units["youngs_modulus"] = "Pa"
+        if isinstance(self.law, PowerLaw) and ratio is not None:
+            modulus = float(self.law.relaxation(self.law.reference_time))
+            values["youngs_modulus"] = 2 * (1 + float(ratio)) * modulus
             units["youngs_modulus"] = "Pa"
         fitted = self.record.times <= self.until
         return FittedCurve(

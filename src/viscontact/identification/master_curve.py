@@ -6,7 +6,7 @@ import itertools
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypedDict, Unpack
+from typing import ClassVar, TypedDict, Unpack
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from viscontact.identification.overlap import mismatch, require_common_values
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
 from viscontact.identification.vertical_shift import VERTICALS, Vertical
-from viscontact.units.display import Displayable
+from viscontact.units.display import Displayable, Plotted
 
 _OWNER = "build_master_curve"
 
@@ -37,7 +37,7 @@ class SuperpositionOptions(TypedDict, total=False):
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve(Displayable):
+class MasterCurve(Displayable, Plotted):
     """Master curve at a reference temperature, from sets at several temperatures.
 
     Made by `build_master_curve`.
@@ -77,6 +77,8 @@ class MasterCurve(Displayable):
     >>> build_master_curve(sets, 293.15, vertical="none").factors.round(4).tolist()
     [1.0, 0.1, 0.01]
     """
+
+    _figure: ClassVar[str] = "master_curve"
 
     reference_temperature: float
     isotherms: tuple[Isotherm, ...]

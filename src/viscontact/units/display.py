@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
     viscontact: Any  # type checkers see no cycle: most public classes derive from `Displayable`
@@ -35,6 +35,35 @@ def result_plots(result: object) -> Any:
 def result_explorer(result: object, **how: Any) -> Any:
     """Return a result to explore, `viscontact.figures.explore`, imported when first used."""
     return viscontact.figures.explore(result, **how)
+
+
+class Plotted:
+    """Base class of objects with a figure of their own."""
+
+    __slots__ = ()
+
+    #: Name of the figure in `viscontact.plot`.
+    _figure: ClassVar[str]
+
+    def plot(self, **options: Any) -> Any:
+        """Draw its figure.
+
+        Parameters
+        ----------
+        **options
+            Those of the function in `viscontact.plot`, as ``width="single"``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure, which a notebook shows.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If matplotlib is not installed.
+        """
+        return getattr(viscontact.plot, self._figure)(self, **options)
 
 
 class StudyResult(ABC):

@@ -10,6 +10,7 @@ from identification.adhesive_curves import RADIUS, drawn
 from viscontact import reference
 from viscontact.bodies.materials.material import Material
 from viscontact.identification import (
+    CurveFits,
     IndentationRecord,
     Isotherm,
     build_master_curve,
@@ -22,6 +23,7 @@ from viscontact.identification import (
 from viscontact.indenters import Sphere
 from viscontact.laws import WLF, Elastic, RelaxationSeries
 from viscontact.plot import (
+    curve_fits,
     fitted_adhesion,
     fitted_indentation,
     fitted_series,
@@ -178,3 +180,19 @@ def test_fitted_adhesion_shows_the_curve_and_jumps_along_the_cantilever(tmp_path
     np.testing.assert_allclose(rest.lines[0].get_ydata(), 100 * fit.residuals)
     assert over_time.get_ylabel() == loop.get_ylabel()
     save_figure(figure, tmp_path / "fit.png")
+
+
+def test_fits_draw_their_own_figure():
+    series = fit_creep(T, 1e-9 + 1e-9 * (1 - np.exp(-T / 5.0)), data="shear")
+    depth = 1e-6 * np.linspace(0.0, 1.0, 21)
+    record = IndentationRecord(Sphere(5e-6), 1e6 * depth, depth, 2e4 * depth**1.5)
+    indentation = fit_indentation(record, "elastic", poisson_ratio=0.5)
+    curves = CurveFits((indentation.in_numbers("a"), indentation.in_numbers("b")))
+    for fit, figure_of in (
+        (series, fitted_series),
+        (indentation, fitted_indentation),
+        (curves, curve_fits),
+    ):
+        own, same = fit.plot(width="single"), figure_of(fit, width="single")
+        assert [axes.get_ylabel() for axes in own.axes] == [axes.get_ylabel() for axes in same.axes]
+        assert own.get_size_inches()[0] == same.get_size_inches()[0]

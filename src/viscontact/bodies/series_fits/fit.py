@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +13,13 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import CreepSeries, RelaxationSeries
 from viscontact.bodies.series_fits.found_shift import FoundShift
 from viscontact.bodies.series_fits.quality import Misfit
-from viscontact.units.display import Displayable
+from viscontact.units.display import Displayable, Plotted
 
 _SHOWN = 6  # terms that are printed
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Displayable):
+class Fit(Displayable, Plotted):
     """Series fitted to measured values.
 
     Made by `fit_creep`, `fit_relaxation` and `fit_dynamic`.
@@ -56,6 +57,8 @@ class Fit(Displayable):
     >>> fit.terms, round(float(fit.law(1e9)), 3)
     (1, 1.0)
     """
+
+    _figure: ClassVar[str] = "fitted_series"
 
     law: CreepSeries | RelaxationSeries
     series: CreepSeries | RelaxationSeries

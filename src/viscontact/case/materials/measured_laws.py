@@ -216,9 +216,9 @@ class TableLaw(FromFile):
         if len(sets) > 1:
             name = table.source.name
             raise ValueError(
-                f"{name} has {len(sets)} sets; say which with set: {_set_list(sets)}; or shift all "
-                f"to one temperature by `viscontact fit {name} --yaml law.yaml`, and give file: "
-                "law.yaml in place of law: table"
+                f"{name} has {len(sets)} sets; {_which(sets)}; or shift all to one temperature by "
+                f"`viscontact fit {name} --yaml law.yaml`, and give file: law.yaml in place of "
+                "law: table"
             )
         return table
 
@@ -253,9 +253,17 @@ class TableLaw(FromFile):
         return f"{table.source.name}:{table.lines[int(match['row'])]}: column {heading!r}: {why}"
 
 
-def _set_list(sets: tuple[Table, ...]) -> str:
+def _which(sets: tuple[Table, ...]) -> str:
+    """What tells a case which of several sets it has."""
     if all(each.set_number is None for each in sets):
-        return "number them in a column Set"
+        return (
+            "give their rows a column Set with numbers, as 1 and 2, and say here which is meant, "
+            "as set: 1"
+        )
+    return f"say which with set: {_set_list(sets)}"
+
+
+def _set_list(sets: tuple[Table, ...]) -> str:
     return ", ".join(
         f"{each.set_number:g}"
         + ("" if each.temperature is None else f" ({in_celsius(each.temperature):.3g} °C)")

@@ -199,7 +199,7 @@ def _slider(maps: Maps, look: Look) -> Part:
 def _played(look: Look) -> Part:
     """Buttons that play the instants and stop."""
     played = _AT_ONCE | {"fromcurrent": True, "frame": {"duration": _PAUSE, "redraw": True}}
-    buttons = [
+    buttons: list[Part] = [
         {"label": "Play", "method": "animate", "args": [None, played]},
         {"label": "Stop", "method": "animate", "args": [[None], _NOW]},
     ]

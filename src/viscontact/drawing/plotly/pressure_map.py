@@ -127,7 +127,7 @@ def _frames(maps: Maps, look: Look, scale: ColourScale) -> Iterator[tuple[list[P
         rims = [[] if maps.many_spots else every.outline for every in shown]
         traces: list[Part] = [{"type": "heatmap", "z": z}, *(_line(rim, unit) for rim in rims)]
         note = _note(each, scale, maps.window)
-        meta = {"name": "map", "title": headings[index], "note": note} | shape
+        meta: Part = {"name": "map", "title": headings[index], "note": note} | shape
         meta["limits"] = {"all": everywhere, "each": own[index]}
         layout: Part = {"meta": meta}
         if each.body is not None:

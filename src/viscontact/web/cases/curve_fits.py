@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -37,7 +38,7 @@ from viscontact.web.cases.case_reader import CaseReader, form_values
 from viscontact.web.workspace.problems import InputProblem, RequestError, without_folder
 
 #: Tips by their names, with the dimension of their size.
-_TIPS = {
+_TIPS: dict[str, tuple[Callable[[float], Indenter], str]] = {
     "sphere": (Sphere, "length"),
     "cone": (Cone, "angle"),
     "pyramid": (partial(Pyramid, faces=4), "angle"),
