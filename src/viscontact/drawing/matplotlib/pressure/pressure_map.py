@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Literal, get_args
 
 import numpy as np
@@ -130,7 +130,8 @@ def _draw(
         mark_body(axes, each.body, maps.window)
     note = maps.note if in_colours else "; ".join(filter(None, (maps.note, maps.zone_note)))
     style.add_heading(panels[0], note, aside=True)
-    for beside, scale in zip(panels if len(scales) > 1 else [panels], scales, strict=True):
+    places: Sequence[Axes | Sequence[Axes]] = panels if len(scales) > 1 else [panels]
+    for beside, scale in zip(places, scales, strict=True):
         colours = _cell_colours(scale) if in_colours else _level_colours(scale)
         extend = "max" if scale.is_open and not in_colours else "neither"
         bar = figure.colorbar(colours, ax=beside, shrink=0.9, aspect=25, pad=0.02, extend=extend)
