@@ -187,6 +187,26 @@ def test_a_body_that_creeps_between_two_ends_begins_and_ends_as_elastic_ones() -
             assert float(creeping[name][index]) == close_to(float(elastic[name][0]), rel=1e-4)
 
 
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # few cells
+def test_error_bars_contain_the_error_of_the_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    body = vc.Body(rubber, 1.0, centre=0.5 - 0.3e-3, ends=("free", None))
+    grid = vc.Grid((24, 24), (2.4e-3, 2.4e-3))
+    setup = "viscontact.simulation.transient.setup.error_of_ends"
+
+    def bars() -> dict[str, float]:
+        found = vc.simulate(vc.Sphere(0.01), body, vc.step(0.02, **LEVEL), grid, [0.0])
+        assert found.attrs["ends_error"] > 0
+        names = ("approach", "peak_pressure", "contact_area")
+        return {each: float(found[f"{each}_error"][0] / found[each][0]) for each in names}
+
+    own = bars()
+    monkeypatch.setattr(setup, lambda problem, *, even: 0.1)
+    for name, bar in bars().items():
+        # A bar that is its least one, as that of the area is on few cells, grows by less.
+        assert max(own[name], 0.1) < bar < own[name] + 0.1001
+
+
 def test_two_bodies_may_end_at_different_places() -> None:
     # A body that ends far away adds what a far end adds; with all its creep in one term or in two.
     rubber, steel = vc.Material(vc.Elastic(1e6), 0.5), vc.Material(vc.Elastic(2e6), 0.3)

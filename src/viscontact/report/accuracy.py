@@ -53,6 +53,15 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
     if is_layered(ds) or is_layered(ds, "indenter_material"):
         yield "Layers", _splitting(ds)
+    ends = float(ds.attrs.get("ends_error", 0.0))
+    if ends > 0:
+        yield (
+            "Free ends",
+            (
+                f"their operator misses {format_bound(ends)} of the displacement (measured by "
+                "reciprocity and by what its short sum leaves out), part of those above"
+            ),
+        )
     for number, event in enumerate(recorded_events(ds), start=1):
         yield f"Event {number}", event.text
     yield "Error estimation", _coarser_runs(ds)

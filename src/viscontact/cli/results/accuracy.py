@@ -36,6 +36,9 @@ def accuracy_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
         yield f"memory: {memory}"
     if splitting_error > 0:
         yield f"error of the layers' creep by its separation: {format_bound(splitting_error)}"
+    ends_error = float(ds.attrs.get("ends_error", 0.0))
+    if ends_error > 0:
+        yield f"error of the operator of free ends: {format_bound(ends_error)} of the displacement"
     if inversion_error > 0:
         yield (
             f"the law was converted numerically; error: {format_bound(inversion_error)} (estimated)"

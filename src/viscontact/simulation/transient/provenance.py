@@ -16,7 +16,6 @@ from viscontact.bodies.loads import MixedHistory
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactEvent
 from viscontact.results.descriptions import describe
-from viscontact.simulation.checks.ends import error_of_ends
 from viscontact.simulation.transient.contact_events import PULL_OFF_MARGIN
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
@@ -47,16 +46,9 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "memory_error": max(plan.error for plan in run.plans),
         "splitting_error": run.problem.surface.splitting_error,
         "inversion_error": run.problem.compliance.inversion_error,
-        **_ends_attributes(run),
+        **({"ends_error": run.ends_error} if run.problem.ended_bodies else {}),
         **events,
     }
-
-
-def _ends_attributes(run: RunSetup) -> dict[str, float]:
-    """Error of the operator of bodies that end; none without."""
-    if not run.problem.ended_bodies:
-        return {}
-    return {"ends_error": error_of_ends(run.problem, even=run.mirrored[0])}
 
 
 def event_attributes(

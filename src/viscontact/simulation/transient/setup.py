@@ -27,6 +27,7 @@ from viscontact.simulation.checks.ends import (
     check_ends,
     check_grid_of_ends,
     check_tilt_of_ends,
+    error_of_ends,
     tilts_from_datum,
 )
 from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
@@ -91,6 +92,11 @@ class RunSetup:
     def tilts_from_datum(self) -> bool:
         """True if the tilt along x has a datum: not if a body that bends has two free ends."""
         return tilts_from_datum(self.problem, self.grid, self.open_gap)
+
+    @cached_property
+    def ends_error(self) -> float:
+        """Part of the displacement by free ends that their operator may miss; 0 without [-]."""
+        return error_of_ends(self.problem, even=self.mirrored[0])
 
     def on(self, grid: Grid) -> RunSetup:
         """Return the same run on another grid."""
