@@ -63,6 +63,10 @@ class CohesiveLaw(ABC):
     def slope(self, gap: Floats, across: Floats) -> Floats:
         """Derivative of that traction by the gap [Pa/m]."""
 
+    def slope_across(self, gap: Floats, across: Floats) -> Floats:
+        """Derivative of that traction by the change of the gap over a cell [Pa/m]."""
+        return np.zeros(np.broadcast_shapes(gap.shape, across.shape))
+
     @abstractmethod
     def energy(self, gap: Floats) -> Floats:
         """Work of separation from a gap to infinity [J/m²]."""
@@ -114,6 +118,12 @@ class Dugdale(CohesiveLaw):
         fall = self._fall(across)
         crosses = np.abs(gap - self.range) < fall / 2
         return np.where(crosses, -self.strength / fall, 0.0)
+
+    def slope_across(self, gap: Floats, across: Floats) -> Floats:
+        """See `CohesiveLaw.slope_across`."""
+        fall, ahead = self._fall(across), self.range - gap
+        varies = (np.abs(ahead) < fall / 2) & (fall == across)
+        return np.where(varies, -self.strength * ahead / fall**2, 0.0)
 
     def energy(self, gap: Floats) -> Floats:
         """See `CohesiveLaw.energy`."""

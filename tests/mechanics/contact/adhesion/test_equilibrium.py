@@ -8,6 +8,7 @@ from mechanics.contact.adhesion.spheres import DEPTH, FORCE, Sphere
 from verification.independent import deflection
 from viscontact.mechanics.contact.adhesion.descent import Descent
 from viscontact.mechanics.contact.adhesion.equilibrium import solve_from, solve_near
+from viscontact.mechanics.contact.adhesion.newton import newton_search
 from viscontact.mechanics.contact.problem import Guess
 
 #: Tabor numbers, cells and quarter sides with six cells or more across the cohesive zone.
@@ -48,6 +49,23 @@ def test_pull_off_of_the_exponential_law_converges_to_second_order():
         least.append(parabola_least(approaches, forces))
     assert least[-1] == close_to(-1.664, abs=5e-4)
     assert abs(least[2] - least[1]) < abs(least[1] - least[0]) / 3
+
+
+@pytest.mark.parametrize("law", ["dugdale", "exponential", "lennard-jones"])
+def test_a_step_of_newtons_method_leaves_what_its_equations_do(law):
+    # Dugdale's front is as wide as the gap changes over a cell; no step takes that as given.
+    sphere = Sphere(law, 1.0, 64, 4.0)
+    first = sphere.contact(1e-10, approach=0.1)
+    errors, problem = [], sphere.problem(approach=0.099)
+    guess = Guess(first.values.copy(), np.array([0.099, 0.0, 0.0]))
+    for _ in range(3):
+        found = newton_search(problem, sphere.domain, guess, 1e-13, max_steps=1)
+        errors.append(found.checked.error)
+        guess = found.iterate
+    # A step's linear equations are solved to three digits.
+    assert errors[0] < 1e-3
+    assert errors[1] < 5e-3 * errors[0]
+    assert errors[2] < 5e-3 * errors[1]
 
 
 def test_certificate_is_that_of_the_returned_pressure():

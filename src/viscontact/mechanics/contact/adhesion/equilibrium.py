@@ -25,8 +25,7 @@ from viscontact.mechanics.contact.adhesion.problem import (
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.problem import Guess
 
-#: Newton steps of a search from a descent, and of the last one, after which there is no other way:
-#: the front of a law that ends abruptly may go to and fro for more than twenty of them.
+#: Newton steps of a search from a descent, and of the last one, after which there is no other way.
 TRIED_STEPS, LAST_STEPS = 12, 60
 
 #: Newton steps of a search that a shorter time step can follow.
@@ -48,7 +47,7 @@ def solve_near(
     is_last: bool = True,
 ) -> AdhesiveSolution:
     """Newton's method alone, from a guess whose memory is used; a few steps unless `is_last`."""
-    steps = MAX_STEPS if is_last or problem.law.is_abrupt else NEAR_STEPS
+    steps = MAX_STEPS if is_last else NEAR_STEPS
     return _solution(problem, newton_search(problem, domain, guess, tolerance, steps), 0)
 
 

@@ -8,9 +8,11 @@ a step (Hintermueller, Ito & Kunisch 2003, SIAM J. Optim. 13, 865) are
     attracted:    dp - D (J K dp - plane(dc)) = -(p + sigma(g))
     balances:     sums(dp) dA + k dc = what is lacking
 
-with the cell size d, and k the spring of the stage. They are solved by GMRES. Its preconditioner is
-that of the contact solver in contact, and one elsewhere, where the equation is of the second kind;
-a multiple of the planes' images makes every direction keep the balances.
+with the cell size d, and k the spring of the stage. The front of a law that ends abruptly is as
+wide as the gap changes over a cell, so D acts on these changes, too. The equations are solved by
+GMRES. Its preconditioner is that of the contact solver in contact, and one elsewhere, where the
+equation is of the second kind; a multiple of the planes' images makes every direction keep the
+balances.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveResidual,
+    changes_over_cells,
     residual_of,
 )
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -37,19 +40,15 @@ MAX_STEPS = 20
 MAX_VECTORS = 40
 
 #: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
-#: change, from a residual of so many strengths on, and of a law that ends abruptly everywhere.
-REDUCTION_AFAR, REDUCTION, NEAR, REDUCTION_ABRUPT = 1e-1, 1e-3, 1e-2, 1e-2
+#: change, and from a residual of so many strengths on.
+REDUCTION_AFAR, REDUCTION, NEAR = 1e-1, 1e-3, 1e-2
 
 #: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
-#: the largest residual; less for a law that ends abruptly.
-INNER_TOLERANCE, INNER_ABRUPT = 0.5, 0.1
+#: the largest residual.
+INNER_TOLERANCE = 0.5
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
-
-#: Newton steps from which on a step of a law that ends abruptly is halved if it does not halve the
-#: residual: its front may go to and fro, as a step takes its width over the cells as given.
-FIRST_STEPS = 2
 
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
@@ -84,7 +83,7 @@ def newton_search(
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
         checked = residual_of(problem, domain, iterate)
         convolutions = 1
-    least, may_cycle = checked.error, problem.law.is_abrupt
+    least = checked.error
     predicted = float(checked.attraction.traction.sum())
     for step in range(max_steps):
         if checked.error <= tolerance:
@@ -92,26 +91,15 @@ def newton_search(
         if not checked.error <= DIVERGED * max(least, tolerance):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
-        last = Guess(iterate.values.copy(), iterate.motion) if may_cycle else iterate
-        before = checked.error
         reduction = REDUCTION if checked.error <= NEAR else REDUCTION_AFAR
-        reduction = REDUCTION_ABRUPT if may_cycle else reduction
         motion = iterate.motion + system.solve(iterate.pressure, reduction)
         iterate = Guess(iterate.values, motion)
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
         checked = residual_of(problem, domain, iterate)
-        if may_cycle and step >= FIRST_STEPS and checked.error > before / 2:
-            iterate = _midway(last, iterate)
-            checked = residual_of(problem, domain, iterate)
         least = min(least, checked.error)
         convolutions += system.convolutions + 1
     converged = checked.error <= tolerance
     return NewtonSearch(iterate, checked, max_steps, convolutions, converged, predicted)
-
-
-def _midway(one: Guess, other: Guess) -> Guess:
-    """Mean of two iterates, whose displacement is the mean of theirs."""
-    return Guess((one.values + other.values) / 2, (one.motion + other.motion) / 2)
 
 
 class LinearStep:
@@ -125,6 +113,7 @@ class LinearStep:
         checked: AdhesiveResidual,
         lacking: Floats,
         goal: float,
+        periodic: tuple[bool, bool] = (False, False),
     ) -> None:
         """Take the cells in contact and those attracted, the residual, and where to end [Pa]."""
         self._patch, self._cells, self.convolutions = patch, cells[0] | cells[1], 0
@@ -137,6 +126,8 @@ class LinearStep:
         self._of_gap = np.where(self._contact, 1 / (self._compliance * self._spacing), slope)
         #: Equations of cells whose attraction grows with the gap are stiff [-].
         self._stiffness = 1 + np.maximum(slope, 0.0) * self._compliance * self._spacing
+        self._across = [each[self._cells] for each in checked.attraction.slopes_across]
+        self._periodic = periodic
         self._gap = checked.gap[self._cells]
         self._traction = checked.attraction.traction[self._cells]
         self._lacking = lacking / patch.cell_area
@@ -169,16 +160,20 @@ class LinearStep:
         cut = AdhesiveResidual(
             patch.cut(checked.gap),
             type(checked.attraction)(
-                patch.cut(checked.attraction.traction), patch.cut(checked.attraction.slope)
+                patch.cut(checked.attraction.traction),
+                patch.cut(checked.attraction.slope),
+                tuple(patch.cut(each) for each in checked.attraction.slopes_across),
             ),
             patch.cut(checked.in_contact),
             *(checked.of_gap, checked.of_traction, checked.imbalance),
         )
         cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
         lacking = problem.lacking(iterate, domain)
-        inner = INNER_ABRUPT if problem.law.is_abrupt else INNER_TOLERANCE
-        goal = inner * tolerance * scale
-        return cls(problem, patch, cells, cut, lacking, goal)
+        goal = INNER_TOLERANCE * tolerance * scale
+        along_x, along_y = domain.periodic
+        whole_x, whole_y = (a == b for a, b in zip(patch.shape, domain.shape, strict=True))
+        periodic = along_x and whole_x, along_y and whole_y
+        return cls(problem, patch, cells, cut, lacking, goal, periodic)
 
     def solve(self, pressure: Floats, reduction: float) -> Floats:
         """Add the change to a pressure on the whole grid [Pa]; return that of the motion."""
@@ -217,12 +212,15 @@ class LinearStep:
         field = np.zeros(self._patch.shape)
         field[self._cells] = change
         self.convolutions += 1
-        opened = self._compliance * self._patch.convolution.apply(field)[self._cells]
-        for part, plane in zip(motion, self._planes, strict=True):
-            if part:
-                opened -= part * plane
-        found = self._of_gap * opened
-        found[~self._contact] += change[~self._contact]
+        opened = self._compliance * self._patch.convolution.apply(field)
+        if motion.any():
+            opened = opened - self._patch.plane.field(motion)
+        found = self._of_gap * opened[self._cells]
+        pulled = ~self._contact
+        found[pulled] += change[pulled]
+        changes = changes_over_cells(opened, self._periodic) if self._across else ()
+        for factor, each in zip(self._across, changes, strict=True):
+            found[pulled] += (factor * each[self._cells])[pulled]
         return found
 
     def _preconditioned(self, vector: Floats) -> Floats:

@@ -75,28 +75,40 @@ class Attraction:
 
     traction: Floats  # positive [Pa]
     slope: Floats  # its derivative by the gap [Pa/m]
+    #: Of a law that ends abruptly: its derivatives by the halved differences of the gaps of the two
+    #: neighbours along each axis [Pa/m].
+    slopes_across: tuple[Floats, ...] = ()
 
 
 def attraction(law: CohesiveLaw, gap: Floats, periodic: tuple[bool, bool]) -> Attraction:
     """Attraction at a gap [m]; of cells that overlap that at contact."""
     open_gap = np.maximum(gap, 0.0)
-    across = change_over_cells(open_gap, periodic) if law.is_abrupt else open_gap
-    return Attraction(law.traction(open_gap, across), law.slope(open_gap, across))
+    if not law.is_abrupt:
+        return Attraction(law.traction(open_gap, open_gap), law.slope(open_gap, open_gap))
+    # Along its steepest direction.
+    changes = changes_over_cells(open_gap, periodic)
+    across = np.sqrt(sum(change**2 for change in changes))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.where(across > 0, law.slope_across(open_gap, across) / across, 0.0)
+    return Attraction(
+        law.traction(open_gap, across),
+        law.slope(open_gap, across),
+        tuple(share * change for change in changes),
+    )
 
 
-def change_over_cells(gap: Floats, periodic: tuple[bool, bool]) -> Floats:
-    """Change of a gap over a cell along its steepest direction [m], by central differences."""
-    square = np.zeros(gap.shape)
-    for axis, repeats in enumerate(periodic):
-        if gap.shape[axis] == 1:
-            continue
+def changes_over_cells(gap: Floats, periodic: tuple[bool, bool]) -> tuple[Floats, Floats]:
+    """Changes of a gap over a cell along both axes [m], by central differences."""
+
+    def along(axis: int) -> Floats:
         ends = [(1, 1) if each == axis else (0, 0) for each in (0, 1)]
-        padded = np.pad(gap, ends, mode="wrap" if repeats else "edge")
+        padded = np.pad(gap, ends, mode="wrap" if periodic[axis] else "edge")
         lines = np.moveaxis(padded, axis, 0)
         with np.errstate(invalid="ignore"):  # inf - inf outside the body
             change = np.moveaxis(lines[2:] - lines[:-2], 0, axis) / 2
-        square += np.where(np.isfinite(change), change, 0.0) ** 2
-    return np.sqrt(square)
+        return np.where(np.isfinite(change), change, 0.0)
+
+    return along(0), along(1)
 
 
 @dataclass(frozen=True, eq=False)
