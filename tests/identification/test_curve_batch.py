@@ -71,6 +71,11 @@ def test_power_laws_are_stated_at_the_time_that_is_asked_for() -> None:
     assert asked.in_numbers("").values["youngs_modulus"] == close_to(3 * relaxed, rel=2e-3)
 
 
+def test_curves_without_names_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"must be a mapping of names to curves.*got list"):
+        fit_each(elastic, [hertz(1e3)])  # type: ignore[arg-type]
+
+
 def test_reference_time_of_a_law_without_one_is_refused() -> None:
     with pytest.raises(ValueError, match="reference_time goes with power-law"):
         fit_indentation(hertz(1e3), "elastic", poisson_ratio=0.5, reference_time=1.0)

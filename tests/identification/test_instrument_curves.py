@@ -103,6 +103,18 @@ def test_curves_of_a_map_are_named_by_their_numbers(tmp_path):
         vc.read_force_curve(f"{tmp_path}/map.h5#11")
 
 
+def test_a_table_is_a_force_curve_with_a_spring_constant(tmp_path):
+    path = tmp_path / "gel.csv"
+    bent = 2 * np.concatenate([np.arange(12), np.arange(12)[::-1]])
+    rows = "".join(f"{i},{each},{each}\n" for i, each in enumerate(bent))
+    path.write_text(f"time [s],position [um],deflection [nm]\n{rows}")
+    curve = vc.read_force_curve(path, spring_constant=0.1)
+    assert curve.spring_constant == 0.1
+    np.testing.assert_allclose(curve.deflection, 1e-9 * bent)
+    with pytest.raises(ValueError, match=r"gel.csv: a table needs spring_constant=, in N/m"):
+        vc.read_force_curve(path)
+
+
 def test_files_that_cannot_be_used_are_refused_by_name(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"none.jpk-force: there is no such file"):
         vc.read_force_curve(tmp_path / "none.jpk-force")

@@ -344,6 +344,20 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
     assert "Not drawn: the surface is measured" in text
 
 
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # few cells
+def test_a_measured_surface_that_slides_is_drawn_from_the_fields() -> None:
+    axis = np.linspace(-60e-6, 60e-6, 66)
+    bumps = 3e-7 * np.cos(axis[:, None] * 1.5e5) * np.sin(axis * 1e5 + 1)
+    body = vc.Sphere(2e-3) + vc.HeightMap(axis, axis, bumps)
+    material = vc.Material(vc.Zener(1e9, 1e9, 1e6), 0.5)
+    grid = vc.Grid((40, 40), (100e-6, 100e-6))
+    ds = vc.steady(body, material, vc.step(0.02), [1e-3, 1e-1], grid=grid, errors=False)
+    found = recorded_surface(ds).gap(grid.x[:, None], grid.y)
+    exact = body.gap(grid.x[:, None], grid.y)
+    np.testing.assert_allclose(found, exact - exact.min(), rtol=0, atol=1e-11)
+    assert "Not drawn" not in _Page(report_page(ds)).text
+
+
 @pytest.mark.slow
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     times = np.linspace(0.0, 300.0, 60)

@@ -94,6 +94,17 @@ def test_coarse_answer_has_fewer_speeds_and_no_errors(tmp_path: Path) -> None:
     assert kept == settings[1:]
 
 
+def test_verdicts_on_allowable_values_are_told(client: TestClient) -> None:
+    text = BALL.replace(ON_A_RANGE, "1 m/s") + "allowable: {peak_pressure: 1 kPa}\n"
+    run = begun(client, text)
+    followed(client, run)
+    until(lambda: bool(status(client, run)["verdicts"]))
+    [found] = status(client, run)["verdicts"]
+    assert found["verdict"] == "failed"
+    assert found["text"].startswith("peak pressure ")
+    assert "allowable 1 kPa, margin −" in found["text"]
+
+
 def test_run_over_speed_is_followed_and_shown(client: TestClient) -> None:
     run = begun(client, BALL)
     assert client.get(f"/api/runs/{run}").json()["axis"] == "speed"

@@ -197,6 +197,11 @@ def fit_each(
     >>> fits.values_of("shear_modulus").round().tolist()
     [1000.0, 2000.0, 4000.0]
     """
+    if not isinstance(curves, Mapping):
+        raise ValueError(
+            "fit_each: curves must be a mapping of names to curves, such as {path.name: path for "
+            f"path in paths}}, got {type(curves).__name__}"
+        )
     if not curves:
         raise ValueError("fit_each: needs at least one curve")
     pending: list[Future[FittedCurve]] = []

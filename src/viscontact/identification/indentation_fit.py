@@ -157,12 +157,15 @@ class IndentationFit(Displayable, Plotted):
             f"{format_quantity(np.ptp(fitted), 's')}, residual {self.residual:.2e} of "
             f"the largest {'force' if self.given == 'approach' else 'approach'}"
         ]
-        for (name, value), unit in zip(self.parameters.items(), self.units, strict=True):
-            low, high = self.intervals[name]
-            lines.append(
-                f"     {name} = {value:.4g} {unit or '(-)'} "
-                f"({self.confidence:.0%}: {low:.4g} to {high:.4g})"
-            )
+        stated = self.in_numbers("")
+        for name, value in stated.values.items():
+            line = f"     {name} = {value:.4g} {stated.units[name] or '(-)'}"
+            if name in stated.intervals:
+                low, high = stated.intervals[name]
+                line += f" ({self.confidence:.0%}: {low:.4g} to {high:.4g})"
+            elif isinstance(self.law, PowerLaw):
+                line += f" in relaxation for {format_quantity(self.law.reference_time, 's')}"
+            lines.append(line)
         if self.contact is not None:
             lines.append(f"     {self.contact!r}")
         return "\n".join(lines)

@@ -16,7 +16,8 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.backend.packed_files import read_packed
 from viscontact.backend.record import Record
-from viscontact.identification.force_curve import ForceCurve
+from viscontact.identification.force_curve import ForceCurve, tabulated_curve
+from viscontact.tables import read_table
 
 #: Suffixes of the files that afmformats reads, without those of tables.
 INSTRUMENT_FILES = (".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5", ".ibw")
@@ -54,9 +55,10 @@ def _is_exported_curve(file: Path) -> bool:
 def read_force_curve(
     path: str | PathLike[str], number: int | None = None, *, spring_constant: float | None = None
 ) -> ForceCurve:
-    """Read a force curve from a file of an atomic force microscope.
+    """Read a force curve from a file of an atomic force microscope, or from a table.
 
-    The formats are those of afmformats: JPK (Bruker) curves and maps, and its own HDF5. The
+    The formats are those of afmformats: JPK (Bruker) curves and maps, and its own HDF5; and tables
+    of time, position, and deflection or force, for which the spring constant is given. The
     position is that of the sensor, or of the piezo where there is none; the deflection is the force
     in the file over the spring constant in the file.
 
@@ -91,6 +93,10 @@ def read_force_curve(
     file, behind = split_number(Path(path))
     if not file.is_file():
         raise FileNotFoundError(f"{file}: there is no such file")
+    if not is_instrument_file(file):
+        if spring_constant is None:
+            raise ValueError(f"{file.name}: a table needs spring_constant=, in N/m")
+        return tabulated_curve(read_table(file), spring_constant)
     chosen = behind if number is None else number
     found = read_packed(
         *(file, _read, chosen, spring_constant),

@@ -29,6 +29,7 @@ from viscontact.report.page_elements import remark, width_of
 from viscontact.results.creep_times import law_times
 from viscontact.results.recorded_case import case_of, is_layered, recorded_grid
 from viscontact.results.recorded_objects import recorded_object
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity
 
@@ -176,7 +177,9 @@ def recorded_surface(ds: xr.Dataset) -> HeightMap:
     # a line contact, whose approach has no datum, counts from 0.
     over = str(ds["gap"].dims[0])
     last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")
-    motion = ds[["approach", "tilt_x", "tilt_y"]].sel(time=float(ds[over][-1]), method="nearest")
+    axis = run_axis(ds).name
+    nearest = int(np.abs(ds[axis].values - float(ds[over][-1])).argmin())
+    motion = ds[["approach", "tilt_x", "tilt_y"]].isel({axis: nearest})
     x, y = ds["x"].values, ds["y"].values
     rigid = np.nan_to_num(motion["approach"].item()) + motion["tilt_x"].item() * x[:, None]
     gap = last["gap"].values - last["displacement"].values + rigid + motion["tilt_y"].item() * y

@@ -92,6 +92,15 @@ def stated_limits(ds: xr.Dataset) -> list[tuple[str, str]]:
     return [(each.label, each.allowed) for each in limits]
 
 
+def compared(ds: xr.Dataset, found: Verdict) -> str:
+    """Return value, allowable value and margin of a verdict in words."""
+    name = found.label[:1].lower() + found.label[1:]
+    value = f" {found.found} at {run_axis(ds).place(found.at)}" if found.found else ""
+    reason = f"; {found.reason}" if found.reason else ""
+    margin = f", margin {found.shown_margin}" if found.shown_margin else ""
+    return f"{name}{value}, allowable {found.allowed}{margin}{reason}"
+
+
 def final_verdicts(ds: xr.Dataset) -> list[Verdict]:
     """Return the verdicts on a run whose last row is there, whatever the result states so far."""
     return [verdict_on(ds, name, float(each["limit"])) for name, each in _limits(ds).items()]

@@ -43,3 +43,14 @@ def test_several_strips_have_gaps_and_reach_through_one_period() -> None:
         "contact_area": np.array([0.0, 0.3, 1.0, 2.0, 4.0]),
     }
     assert in_several_strips(run, history).tolist() == [False, False, False, True, False]
+
+
+@pytest.mark.filterwarnings("ignore:the grid is periodic along x only")
+def test_extents_along_lines_of_a_line_contact_are_exact() -> None:
+    rubber = vc.Material(vc.Elastic(1e6), 0.5)
+    grid = vc.Grid((4, 64), (10e-3, 4e-3), periodic=(True, False))
+    body = vc.Paraboloid(math.inf, 20e-3)
+    ds = vc.simulate(body, rubber, vc.step(1.0), grid, [0.0, 1.0])
+    assert ds["contact_length"].values == close_to([10e-3] * 2, rel=1e-12)
+    assert (ds["contact_length_error"] == 0).all()
+    assert (ds["contact_width_error"] > 0).all()

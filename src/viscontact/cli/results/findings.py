@@ -11,8 +11,7 @@ from viscontact.results.contact_spots import last_spots
 from viscontact.results.leakage.of_case import leakage_lines
 from viscontact.results.recorded_events import recorded_events
 from viscontact.results.rolling import has_creepages
-from viscontact.results.run_axis import run_axis
-from viscontact.results.verdicts import Verdict, verdicts
+from viscontact.results.verdicts import compared, verdicts
 
 _COLOURS = {"passed": "green", "failed": "red", "undecided": "yellow"}
 
@@ -29,12 +28,4 @@ def print_findings(console: TextConsole, ds: xr.Dataset) -> None:
         put(f"event at {event.text}")
     for each in verdicts(ds):
         verdict = styled(each.verdict, _COLOURS[each.verdict])
-        console.print(verdict, _comparison(ds, each), sep=": ", highlight=False)
-
-
-def _comparison(ds: xr.Dataset, each: Verdict) -> str:
-    name = each.label[:1].lower() + each.label[1:]
-    found = f" {each.found} at {run_axis(ds).place(each.at)}" if each.found else ""
-    reason = f"; {each.reason}" if each.reason else ""
-    margin = f", margin {each.shown_margin}" if each.shown_margin else ""
-    return f"{name}{found}, allowable {each.allowed}{margin}{reason}"
+        console.print(verdict, compared(ds, each), sep=": ", highlight=False)

@@ -38,6 +38,7 @@ from viscontact.simulation.accuracy.event_bars import (
     widen_after_events,
     with_least_errors,
 )
+from viscontact.simulation.accuracy.filled_periods import zero_over_periods
 from viscontact.simulation.accuracy.first_and_last_contact import (
     before_loss,
     bound_by_few_cells,
@@ -164,6 +165,7 @@ def error_bars_from(
     bound_by_first_contact(values, history)
     apart = certainly_separated(run, history, touching)
     zero_without_contact(run, values, apart, touching)
+    zero_over_periods(values, run, history, found)
     peaks = values["peak_pressure"]
     warnings = singular_warnings(peaks, run.problem.indenter, issued)
     warnings += coarse_peak_warnings(peaks, least_peak, history)

@@ -19,6 +19,7 @@ from viscontact.results.run_axis import SPEED, TIME, in_order, run_axis
 from viscontact.results.run_files import RESULT_NAME
 from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
+from viscontact.results.verdicts import compared, verdicts
 from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.pictures import DAMAGED
@@ -59,7 +60,7 @@ def status_of(run: ManagedRun, summary: Mapping[str, Any] | None = None) -> dict
         "scalars": _scalars(course.last, {row["name"] for row in table}),
         "table": table,
         "figures": _figures(run) if course.instants and not is_damaged else [],
-        **{name: found.get(name, []) for name in ("fields", "fields_text")},
+        **{name: found.get(name, []) for name in ("verdicts", "fields", "fields_text")},
     }
 
 
@@ -80,6 +81,9 @@ def result_summary(directory: Path) -> dict[str, Any]:
         return {
             "table": rows,
             "warnings": str(ds.attrs.get("warnings", "")).splitlines(),
+            "verdicts": [
+                {"verdict": each.verdict, "text": compared(ds, each)} for each in verdicts(ds)
+            ],
             "fields": places,
             "fields_text": [axis.quantity(place, 6) for place in places],
         }

@@ -57,8 +57,10 @@ async function load(yaml, name) {
 
 // Opens a case with the files that it names, or takes files with data to where a case has them.
 async function openFiles(files) {
-  const isCase = ({ name }) => /\.ya?ml$/i.test(name);
-  const [opened] = files.filter(isCase), others = files.filter((each) => !isCase(each));
+  const texts = await Promise.all(files.map((each) => (/\.ya?ml$/i.test(each.name) ? each.text() : "")));
+  // A law of its own is a file that a case names.
+  const isCase = texts.map((text, index) => /\.ya?ml$/i.test(files[index].name) && (files.length === 1 || /^(indenter|load) *:/m.test(text)));
+  const opened = files[isCase.indexOf(true)], others = files.filter((each) => each !== opened);
   const names = [];
   for (const each of others) names.push((await upload(each)).name);
   if (opened) { await load(await opened.text(), opened.name); return; }

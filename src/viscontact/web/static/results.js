@@ -48,6 +48,7 @@ function notes(status, data) {
   const note = (text, style = "") => make("p", { class: `note ${style}`, textContent: text });
   // For a run that stopped early, the notes state where it ended.
   const parts = [status.quality === "coarse" && note(COARSE), isEarly(status) && note(WITHOUT_BARS), status.state === "failed" && note(status.message)];
+  parts.push(...status.verdicts.map(({ verdict, text }) => note(`${verdict}: ${text}`, verdict === "passed" ? "" : "warm")));
   parts.push(...data.notices.map((text) => note(text, "warm")));
   if (data.warnings.length) parts.push(warned(data.warnings));
   return parts.filter(Boolean);
