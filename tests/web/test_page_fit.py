@@ -52,8 +52,9 @@ def test_a_table_is_fitted_and_its_law_is_a_material(client: TestClient) -> None
     assert isinstance(material, vc.Material)
     assert isinstance(material.law, vc.Elastic)
     assert material.law.shear_modulus == close_to(5e3, rel=1e-2)
-    (row,) = found["parameters"]
+    row, youngs = found["parameters"]
     assert (row["name"], row["confidence"]) == ("shear_modulus", "95 %")
+    assert youngs["name"] == "youngs_modulus"
     low, high, unit = row["interval"].replace("to ", "").split()
     assert float(low) < 1e-3 * material.law.shear_modulus < float(high)
     assert unit == "kPa"
@@ -106,7 +107,7 @@ def test_a_file_of_an_instrument_gives_the_law_of_the_command_line(
         ({"file": ""}, "file", "give its name alone"),
         ({"size": ""}, "size", "is missing"),
         ({"size": "5 N"}, "size", "'5 N'"),
-        ({"tip": "spoon"}, "tip", "must be one of sphere, cone, punch"),
+        ({"tip": "spoon"}, "tip", "must be one of sphere, cone, pyramid, punch"),
         ({"poisson_ratio": "half"}, "poisson_ratio", "'half' is not a number"),
         ({"poisson_ratio": ""}, "poisson_ratio", "give Poisson's ratio"),
         ({"poisson_ratio": "0.7", "spring_constant": "0.1 N/m"}, "", "poisson_ratio"),

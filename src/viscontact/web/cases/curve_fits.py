@@ -201,15 +201,18 @@ def _fitted_rows(fit: IndentationFit) -> list[tuple[str, str]]:
 
 def _parameter_rows(fit: IndentationFit) -> list[dict[str, Any]]:
     """Name, value and confidence interval of each parameter, as text."""
-    rows = []
-    for (name, value), si in zip(fit.parameters.items(), fit.units, strict=True):
-        unit = readable_unit(si or "1", value)
-        low, high = (format_number(each / unit.factor, 4) for each in fit.intervals[name])
+    rows, stated = [], fit.in_numbers("")
+    for name, value in stated.values.items():
+        unit = readable_unit(stated.units[name] or "1", value)
+        interval = ""
+        if name in stated.intervals:
+            low, high = (format_number(each / unit.factor, 4) for each in stated.intervals[name])
+            interval = f"{low} to {high} {unit.symbol}".strip()
         number = format_number(value / unit.factor, 4)
         rows.append(
             {
                 **{"name": name, "value": f"{number} {unit.symbol}".strip()},
-                "interval": f"{low} to {high} {unit.symbol}".strip(),
+                "interval": interval,
                 "confidence": f"{100 * fit.confidence:.0f} %",
             }
         )

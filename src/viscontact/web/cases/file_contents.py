@@ -6,8 +6,8 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from viscontact.bodies.surfaces import read_surface
 from viscontact.identification.instrument_curves import is_instrument_file
-from viscontact.surfaces import read_surface
 from viscontact.tables import Table, read_table
 from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.problems import RequestError
