@@ -194,7 +194,9 @@ def test_a_file_that_was_given_is_read(client: TestClient) -> None:
     assert client.delete("/api/files/my%20load.csv").status_code == 204
     answer = client.post("/api/check", json={"yaml": case})
     (problem,) = answer.json()["problems"]
-    assert problem["message"] == "no such file my load.csv"  # and not where the page keeps it
+    # And not where the page keeps it.
+    remedy = "upload it, or open it together with the case"
+    assert problem["message"] == f"no such file my load.csv; {remedy}"
     assert client.delete("/api/files/my%20load.csv").status_code == 404
 
 
