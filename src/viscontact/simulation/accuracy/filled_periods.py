@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
@@ -17,7 +15,7 @@ _ROUNDING = 1e-9
 
 
 def zero_over_periods(
-    values: dict[str, Floats], run: RunSetup, history: History, results: Sequence[CoarserResult]
+    values: dict[str, Floats], run: RunSetup, history: History, results: list[CoarserResult]
 ) -> None:
     """Set the bars of extents to zero where the contact fills a period on all grids."""
     for name, repeats, side in zip(EXTENTS, run.grid.periodic, run.grid.size, strict=True):
