@@ -68,9 +68,12 @@ export function quantityText(value, error, si, mesh = false) {
 export const amount = (value, unit, digits = 4) => `${Number((value / unit.factor).toPrecision(digits))} ${unit.symbol}`;
 
 // An instant or a speed of a run's axis in words: "t = 2 s", "500 mm/s". Instants share a unit, so
-// that zero has one.
-export const placeText = ({ name, unit, symbol, values }, value) =>
-  symbol + amount(value, unitFor(unit, name === "time" ? values : value));
+// that zero has one, but for those that are small in it, as a second of a year.
+export function placeText({ name, unit, symbol, values }, value) {
+  const shared = unitFor(unit, values);
+  const fits = name === "time" && (value === 0 || Math.abs(value) >= 0.01 * shared.factor);
+  return symbol + amount(value, fits ? shared : unitFor(unit, value));
+}
 
 // A duration in a readable unit.
 export function lasting(seconds) {
