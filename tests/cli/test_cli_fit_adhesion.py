@@ -76,8 +76,8 @@ def test_limits_take_the_place_of_a_range_that_the_curve_does_not_tell(tmp_path,
     assert least is not None
     assert most is not None
     assert float(least[1]) * float(most[1]) == close_to(LENGTH, rel=0.05)
-    assert "limit: JKR's fits, as do Tabor numbers down to" in printed
-    assert "  # range: JKR's fits" in out.read_text()
+    assert "limit: the limit of JKR fits, and so do Tabor numbers down to" in printed
+    assert "  # range: the limit of JKR fits" in out.read_text()
 
 
 @pytest.mark.slow

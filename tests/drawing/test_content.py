@@ -13,6 +13,7 @@ from viscontact.drawing.content.along_run import along_run, suits_log_time, with
 from viscontact.drawing.content.design import profile_panel, trial_panels
 from viscontact.drawing.content.friction import limit_speeds
 from viscontact.drawing.content.history import event_marks, limits_around
+from viscontact.drawing.content.key_axis import numbered_texts
 from viscontact.drawing.content.law_curves import creep_panels, material_panels
 from viscontact.drawing.content.look import DARK, LIGHT, PRESSURE, Look, shades
 from viscontact.drawing.content.notes import peak_note
@@ -232,3 +233,10 @@ def test_runs_have_distinct_colours_that_differ_from_the_page(look: Look) -> Non
     assert look.colour(Ink(place=7)) == colours[0]
     instants = [look.colour(Ink("ordered", place)) for place in (0.0, 0.5, 1.0)]
     assert instants == look.instants(3)
+
+
+def test_texts_that_differ_in_spaces_only_have_no_number() -> None:
+    same = xr.Dataset(coords={"load": ("run", ["hold for 1 s", "hold for 1s"])})
+    assert numbered_texts(same, ["load"]) == {}
+    unlike = xr.Dataset(coords={"load": ("run", ["hold for 1 s", "hold for 20 s"])})
+    assert numbered_texts(unlike, ["load"])["load"].values.tolist() == [1.0, 20.0]

@@ -146,7 +146,8 @@ def test_a_number_whose_error_exceeds_all_of_its_column_is_not_printed() -> None
     assert format_with_error_in(pressure, 15e6, 32e6, 15.6e6) == "? ± 32"
     assert format_with_error_in(pressure, 15e6, 14e6, 15.6e6) == "15 ± 14"
     assert format_supported(15.0, 32.0, largest=40.0) == "15"  # small beside others
-    assert format_supported(0.2, 32.0, largest=15.0) == "0"
+    assert format_supported(0.2, 32.0, largest=15.0) == "?"
+    assert format_supported(0.0, 32.0, largest=15.0) == "0"
 
 
 def test_marks_of_errors_differ() -> None:

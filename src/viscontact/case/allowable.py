@@ -152,8 +152,10 @@ class Allowable(Section):
             raise ValueError("allowable.line_load: is force_per_length; give one of them")
         for name in self.limits:
             if name in (*OF_LINES, *OF_MOVING_LINES) and not is_line:
+                typed = "line_load" if self.line_load is not None else "force_per_length"
+                shown = typed if name == "force_per_length" else name
                 raise ValueError(
-                    f"allowable.{name}: only a line contact has it, of a body without end or on a "
+                    f"allowable.{shown}: only a line contact has it, of a body without end or on a "
                     "grid that is periodic along one axis; leave it out"
                 )
             if name in (*MOVING, *OF_MOVING_LINES) and not moving:

@@ -135,7 +135,11 @@ def _is_name(value: Any, key: str | int) -> bool:
 def _in_section(data: Any, path: KeyPath) -> KeyPath:
     """Path within the section of a case that has it, where it was left out; else empty."""
     sections = [(name,) for name in data if isinstance(name, str)] if path[0] not in data else []
-    found = [(*name, *path) for name in sections if value_at(data, (*name, *path[:-1])) is not None]
+    found = [
+        (*name, *path)
+        for name in sections
+        if isinstance(value_at(data, (*name, *path[:-1])), dict | list)
+    ]
     return found[0] if len(found) == 1 else ()
 
 

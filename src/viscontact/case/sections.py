@@ -173,10 +173,10 @@ class CaseFile(Section):
     @property
     def limits(self) -> dict[str, float]:
         """Allowable values, and where there are none, those of the materials."""
-        # The stress below the contact is computed in a half-space; that in the pressed body follows
-        # from the pressure, as in a contact of Hertz.
+        # The stress below the contact is computed in a half-space without ends; that in the pressed
+        # body follows from the pressure, as in a contact of Hertz.
         found: dict[str, float] = {}
-        if isinstance(self.material, Medium):
+        if isinstance(self.material, Medium) and self.material.ends is None:
             stress = self.material.built.strength(repeats=self.repeats)
             found |= {} if stress is None else {"von_mises": stress}
         if isinstance(self.indenter_material, Medium):

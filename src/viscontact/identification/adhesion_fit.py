@@ -84,9 +84,10 @@ class AdhesionFit(Plotted):
         if low >= JKR_ABOVE:
             return regime(low)
         if low > 0:
-            ends = format_number(low, 2), format_quantity(self.intervals["range"][1], "m", 2)
-            return "JKR's fits, as do Tabor numbers down to {} (ranges up to {})".format(*ends)
-        return "JKR's and DMT's both fit: the range is not determined"
+            longest = format_quantity(self.intervals["range"][1], "m", 2)
+            numbers = f"Tabor numbers down to {format_number(low, 2)} (ranges up to {longest})"
+            return f"the limit of JKR fits, and so do {numbers}"
+        return "the limits of JKR and DMT both fit: the range is not determined"
 
     @property
     def approach(self) -> Floats:

@@ -116,15 +116,15 @@ class CurveFits(Displayable, Plotted):
 
     def _rows(self) -> Iterator[list[object]]:
         heads: list[object] = ["curve"]
-        for name in self.parameters:
-            unit = self.unit_of(name)
-            heads += [column_heading(f"{name}{end}", unit) for end in self._columns(name)]
+        columns = {name: self._columns(name) for name in self.parameters}
+        for name, ends in columns.items():
+            heads += [column_heading(f"{name}{end}", self.unit_of(name)) for end in ends]
         yield [*heads, "residual", "indentation [m]", "force [N]", "warning", "failure"]
         for each in self.curves:
             numbers: list[float] = []
-            for name in self.parameters:
+            for name, ends in columns.items():
                 stated = each.values.get(name, math.nan), *each.intervals.get(name, _UNKNOWN)
-                numbers += stated[: len(self._columns(name))]
+                numbers += stated[: len(ends)]
             numbers += [each.residual, each.indentation, each.force]
             written = ["" if math.isnan(number) else f"{number:.6g}" for number in numbers]
             yield [each.name, *written, each.warning, each.failure]

@@ -22,6 +22,9 @@ from viscontact.tables import read_table
 #: Suffixes of the files that afmformats reads, without those of tables.
 INSTRUMENT_FILES = (".jpk-force", ".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5", ".ibw")
 
+#: Suffixes of tables.
+TABLES = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xls", ".ods")
+
 # Texts with metadata in comments, as afmformats writes them: other tables have this suffix, too.
 _EXPORTED, _METADATA, _FIRST_BYTES = ".tab", b"BEGIN METADATA", 10_000
 
@@ -93,11 +96,13 @@ def read_force_curve(
     file, behind = split_number(Path(path))
     if not file.is_file():
         raise FileNotFoundError(f"{file}: there is no such file")
-    if not is_instrument_file(file):
+    chosen = behind if number is None else number
+    if file.suffix.lower() in TABLES and not is_instrument_file(file):
+        if chosen is not None:
+            raise ValueError(f"{file.name}: a table has one curve, got the number {chosen}")
         if spring_constant is None:
             raise ValueError(f"{file.name}: a table needs spring_constant=, in N/m")
         return tabulated_curve(read_table(file), spring_constant)
-    chosen = behind if number is None else number
     found = read_packed(
         *(file, _read, chosen, spring_constant),
         prepare=_load_library,

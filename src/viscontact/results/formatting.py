@@ -72,12 +72,12 @@ def format_supported(
         return format_number(value, digits)
     if math.isinf(error):
         return f">{format_number(value, digits)}"
+    if error > largest and value != 0:
+        return UNKNOWN
     last = _leading(error) + 1 - _ERROR_DIGITS
     rounded = round(value / 10.0**last) * 10.0**last
     if rounded == 0:
         return "0"
-    if error > largest:
-        return UNKNOWN
     return format_number(rounded, min(max(_leading(rounded) - last + 1, 1), digits))
 
 

@@ -68,6 +68,27 @@ def test_the_largest_parameter_is_found_from_the_upper_end_on() -> None:
     assert design.trials.budget.runs <= 12
 
 
+@pytest.mark.parametrize(
+    ("ends", "root"),
+    [(("10 mm", "10.2 mm"), 10.0733), (("10 mm", "10.1 mm"), 10.0711), (("-1 mm", "1 mm"), -0.2)],
+)
+def test_narrow_ranges_and_those_with_a_zero_are_searched_as_others(
+    ends: tuple[str, str], root: float
+) -> None:
+    low, high = (float(end.split()[0]) for end in ends)
+    design, best = searched(
+        peak(lambda x: 1 + (root - x) / (high - low)),
+        {"load.x": ends},
+        parameter="load.x",
+        constraints=[LIMIT],
+    )
+    assert best is not None
+    found = float(best.settings["load.x"].split()[0])
+    # Values have five digits.
+    assert 0 <= found - root <= 1.1e-3 * (high - low) + 1e-4 * abs(root)
+    assert not design.is_cut_short
+
+
 def test_a_bound_that_is_kept_everywhere_takes_one_run_a_level() -> None:
     design, best = searched(
         peak(lambda x: 0.5),

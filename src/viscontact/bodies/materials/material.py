@@ -299,7 +299,10 @@ class Material(Displayable):
 
     @property
     def instant_poisson_ratio(self) -> float:
-        """Poisson's ratio just after a load [-]; that at a bulk modulus follows from the law."""
+        """Poisson's ratio just after a load [-]; that at a bulk modulus follows from the law.
+
+        Of a law without instant compliance it is 0.5, which such a body tends to as it creeps.
+        """
         if self.poisson_ratio is not None:
             return self.poisson_ratio
         assert self.bulk_modulus is not None  # exactly one is given

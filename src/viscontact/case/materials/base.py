@@ -111,8 +111,8 @@ class Medium(Section):
     )
     yield_stress: Modulus | None = Field(
         default=None,
-        description="in tension, or another stress that the material bears; the result is compared "
-        "with it, unless allowable has the value",
+        description="in tension, or another stress that the material bears; the result on a "
+        "half-space, or of the pressed body, is compared with it, unless allowable has the value",
         examples=["250 MPa"],
     )
     fatigue_limit: Modulus | None = Field(

@@ -50,6 +50,9 @@ def constraints_of(table: xr.Dataset) -> list[str]:
 def trial_panels(table: xr.Dataset, scalar: str | None = None) -> list[Panel]:
     """Panels of a scalar over each parameter: by default the first goal, or what bounds it."""
     name = scalar or shown_scalars(table)[0]
+    if name not in table.data_vars:
+        known = ", ".join(shown_scalars(table))
+        raise ValueError(f"trials: scalar: the table has no {name!r}; its scalars are {known}")
     y, values, errors = _scalar(table, name)
     bounds = tuple(_bounds_of(table, name))
     feasible, is_coarse = table["feasible"].values.astype(bool), table["level"].values == "coarse"

@@ -20,9 +20,9 @@ from viscontact.units.parsing import parse_any_quantity
 _PRINTED = {"degC": "°C", "degF": "°F", "deg": "°"}
 #: Attribute of a key with the words before the number in which its texts differ.
 _WORDS = "words"
-#: What separates words of a text, and what surrounds them.
 #: The place between a number and its unit, which may be written together.
 _UNIT = re.compile(r"(?<=\d)(?=(?!e[-+]?\d)[A-Za-zµμ°%])")
+#: What separates words of a text, and what surrounds them.
 _SEPARATORS, _AROUND = re.compile(r"[\s,;]+"), " []{}"
 #: Least ratio of the largest to the least value on a logarithmic axis.
 _DECADE = 9.0
@@ -64,6 +64,8 @@ def _numbered(texts: xr.DataArray) -> xr.Variable | None:
         return None
     columns = list(zip(*split, strict=True))
     unlike = [n for n, column in enumerate(columns) if len(set(column)) > 1]
+    if not unlike:  # they differ in spaces only
+        return None
     first = unlike[0]
     if unlike not in ([first], [first, first + 1]):
         return None

@@ -167,7 +167,7 @@ def _frame(
 
 
 def _controls(maps: Maps, look: Look) -> Part:
-    """Slider over the instants, and buttons that play and stop them; none for one instant."""
+    """Slider over the instants, and buttons to play them and to colour them; none for one."""
     if len(maps.snapshots) < 2:
         return {}
     menus = [_played(look), _coloured(maps, look)]

@@ -96,7 +96,7 @@ def design(  # noqa: PLR0913
     constraints : sequence of str, optional
         Bounds on the magnitudes of scalars at all instants of all scenarios, as
         ``["contact_length<=18mm"]``, or with ``>=``; ``["peak_pressure<=allowable"]`` is the
-        allowable value of the case, or that of the yield stress of its materials.
+        allowable value of the case, or that of the yield stress of the pressed body.
     clear_of_ends : bool, optional
         True: a contact that reaches a sharp end of the body at any instant is never the best one.
         Pressure has no limit there, also where the cells of a run do not resolve that, so that its

@@ -241,7 +241,7 @@ def with_limits(texts: Sequence[str], limits: Mapping[str, float]) -> list[str]:
         scalar = name.strip()
         if not sign or bound.strip() != "allowable":
             continue
-        if scalar not in limits:
+        if scalar not in limits or scalar not in SCALARS:
             known = ", ".join(each for each in limits if each in SCALARS) or "none of a scalar"
             raise ValueError(
                 f"constraints: {text}: the case has no allowable {scalar}; it has {known}; write "

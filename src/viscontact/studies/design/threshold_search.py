@@ -140,7 +140,9 @@ class _Bracketing:
         known, (low, high) = self.at(level), self.bracket(level)
         widths.append(high - low)
         is_closed = high in known and known[high].is_feasible
-        size = abs(self.value(high)) or 1.0
+        # Over the value, or over the range where that is less, as it is at a value of zero.
+        extent = abs(self.value(1.0) - self.value(0.0))
+        size = min(abs(self.value(high)) or extent, extent)
         gain = abs(self.value(high) - self.value(low)) / size
         if is_closed and (high == 0.0 or (low in known and gain <= least)):
             return None
@@ -150,7 +152,10 @@ class _Bracketing:
         if root == 0.0:
             return 0.0 if low not in known else (low + high) / 2
         # Most of the step whose gain is small, so that two steps enclose the root.
-        slope = abs(self.value(min(root + 1e-3, 1.0)) - self.value(max(root - 1e-3, 0.0))) / 2e-3
+        behind, ahead = max(root - 1e-3, 0.0), min(root + 1e-3, 1.0)
+        slope = abs(self.value(ahead) - self.value(behind)) / (ahead - behind)
+        if slope == 0:  # the values are equal to all their digits
+            return (low + high) / 2
         step = min(0.8 * least * size / slope, (high - low) / 2)
         if is_closed and high - root <= step:
             return high - step
