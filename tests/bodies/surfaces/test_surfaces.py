@@ -124,6 +124,17 @@ def test_tilt_that_is_taken_off_is_that_of_the_plane() -> None:
     assert "a tilt of 53.9 mrad was" in str(levelling_note(plane, "plane"))
 
 
+def test_a_tilt_that_is_taken_off_a_map_that_repeats_is_said_to_leave_a_step() -> None:
+    """A sine over one period has the tilt 6 a/(π L) of its least-squares line."""
+    x = (np.arange(64) + 0.5) / 64
+    wave = np.broadcast_to(1e-6 * np.sin(2 * np.pi * x)[:, None], (64, 64))
+    advice = "for a periodic grid write level: mean"
+    assert advice in str(levelling_note(vc.Surface(wave, 1e-6), "plane"))
+    half = vc.Surface(wave[:40], 1e-6)  # does not repeat
+    assert "a tilt of" in str(levelling_note(half, "plane"))
+    assert advice not in str(levelling_note(half, "plane"))
+
+
 def test_levelling_far_from_the_reference_loses_no_digits() -> None:
     surface = rough()
     away = surface.with_heights(surface.heights + 0.1)

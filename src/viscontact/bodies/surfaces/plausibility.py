@@ -25,6 +25,9 @@ FORM_SHARE = 0.5
 #: Rms slope above which small-strain theory does not hold.
 STEEP = 0.5
 
+#: Difference of opposite borders, over that of neighbouring points, up to which a map repeats.
+FITTING = 2.0
+
 
 def surface_doubts(surface: Surface) -> tuple[str, ...]:
     """Return warnings about a surface that looks wrong before it is pressed.
@@ -104,7 +107,29 @@ def levelling_note(surface: Surface, level: Level) -> str | None:
         return None
     form = " and the paraboloid that fits best were" if level == "quadratic" else " was"
     slope = format_quantity(math.hypot(*tilt(surface)), "rad", 3)
-    return f"{surface.name}: a tilt of {slope}{form} taken off (level: {level})"
+    note = f"{surface.name}: a tilt of {slope}{form} taken off (level: {level})"
+    if not _fits_at_borders(surface):
+        return note
+    return (
+        f"{note}; the borders of the map fitted together before, as those of a surface that "
+        "repeats: for a periodic grid write level: mean"
+    )
+
+
+def _fits_at_borders(surface: Surface) -> bool:
+    """True if opposite borders differ little, and the tilt taken off leaves a step between them."""
+    if min(surface.shape) < 3:
+        return False
+    leaves_step = False
+    for axis, (slope, side) in enumerate(zip(tilt(surface), surface.size, strict=True)):
+        lines = np.moveaxis(surface.heights, axis, 0)
+        across = float(np.sqrt(np.nanmean((lines[-1] - lines[0]) ** 2)))
+        between = float(np.sqrt(np.nanmean(np.diff(lines, axis=0) ** 2)))
+        if across > FITTING * between:
+            return False
+        rounding = 1e-9 * surface.height_range
+        leaves_step |= abs(slope) * side > max(between, rounding)
+    return leaves_step
 
 
 def _hollow(surface: Surface) -> str | None:
