@@ -27,6 +27,17 @@ def names_of(scripts: list[Path]) -> list[object]:
     ]
 
 
+def test_each_example_has_its_picture_in_the_folder() -> None:
+    page = (GALLERY / "README.md").read_text(encoding="utf-8")
+    for script in SCRIPTS:
+        title = (ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or "").split(
+            "\n"
+        )[0]
+        picture = f"../images/gallery/{script.stem}.png"
+        assert f"[![{title}]({picture})<br>{title}]({script.name})" in page
+        assert (GALLERY / picture).is_file()
+
+
 @pytest.mark.parametrize("script", names_of(SCRIPTS))
 def test_example_draws_and_its_number_is_right(
     script: Path, capsys: pytest.CaptureFixture[str]
