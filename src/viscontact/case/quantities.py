@@ -20,6 +20,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from viscontact.bodies.grid import COARSEST, FINEST
 from viscontact.bodies.loads.harmonic_history import MOST_CYCLES
 from viscontact.bodies.loads.motion import LARGEST_CREEPAGE
+from viscontact.bodies.materials.hardness import RANGES
 from viscontact.mechanics.time_integration.requested_times import (
     COARSEST_TIME_ERROR,
     FINEST_TIME_ERROR,
@@ -135,8 +136,8 @@ Expansion = Annotated[float, WithUnit("expansion")]
 MolarEnergy = Annotated[float, WithUnit("molar energy", POSITIVE)]
 Exponent = Annotated[float, Field(gt=0, le=1)]
 Scale = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-ShoreA = Annotated[float, Field(ge=20, le=90)]
-ShoreD = Annotated[float, Field(ge=30, le=60)]
+ShoreA = Annotated[float, Field(ge=RANGES["A"][0], le=RANGES["A"][1])]
+ShoreD = Annotated[float, Field(ge=RANGES["D"][0], le=RANGES["D"][1])]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
 StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]

@@ -1,4 +1,4 @@
-"""What a file holds that was opened on the page, and where a case names it."""
+"""Contents of a file that was opened on the page, and the section of a case that names it."""
 
 from __future__ import annotations
 
