@@ -28,7 +28,7 @@ def names_of(scripts: list[Path]) -> list[object]:
 
 
 def test_each_example_has_its_picture_in_the_folder() -> None:
-    page = (GALLERY / "README.md").read_text(encoding="utf-8")
+    page = (GALLERY / "index.md").read_text(encoding="utf-8")
     for script in SCRIPTS:
         title = (ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or "").split(
             "\n"
