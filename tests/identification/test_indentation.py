@@ -19,7 +19,7 @@ from viscontact import AccuracyWarning, reference
 from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.identification import IndentationRecord, fit_indentation, material_section
-from viscontact.identification.record import elastic_force
+from viscontact.identification.elastic_indentation import elastic_indentation
 from viscontact.indenters import Cone, FlatPunch, Paraboloid, Pyramid, Sphere
 from viscontact.laws import Elastic, Maxwell, PowerLaw, Zener
 
@@ -129,11 +129,11 @@ def test_the_force_of_a_pyramid_is_near_the_one_that_bilodeau_approximates():
     """Bilodeau 1992: 0.7453 of four faces; and above that of the cone of equal area."""
     d, angle = np.array([1e-6]), math.radians(35)
     for faces in (3, 4):
-        [force] = elastic_force(Pyramid(angle, faces), d)
+        [force] = elastic_indentation(Pyramid(angle, faces)).force(d)
         area = faces * math.tan(math.pi / faces) / math.pi  # over that of the cone inside
         cone = 2 / math.pi * math.tan(angle) * math.sqrt(area) * 1e-12
         assert 1.02 < force / cone < 1.09
-    assert elastic_force(Pyramid(angle, 4), d)[0] == close_to(
+    assert elastic_indentation(Pyramid(angle, 4)).force(d)[0] == close_to(
         0.7453 * math.tan(angle) * 1e-12, rel=0.011
     )
 

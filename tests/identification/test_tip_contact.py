@@ -11,7 +11,7 @@ import viscontact as vc
 from closeness import close_to
 from viscontact import reference
 from viscontact.identification.contact_point import deflection_in_contact
-from viscontact.identification.record import elastic_force, force_exponent, indenter_profile
+from viscontact.identification.elastic_indentation import elastic_indentation, indenter_profile
 from viscontact.identification.stroke import Stroke
 from viscontact.identification.tip_contact import PressedTip
 from viscontact.indenters import Cone, FlatPunch, Sphere
@@ -30,10 +30,9 @@ def pressed(indenter, law, count):
     spans = pairwise(CORNERS)
     times = np.concatenate([[0.0], *(begin + (end - begin) * placed for begin, end in spans)])
     way = stroke.at(times)
-    factor = float(elastic_force(indenter, np.ones(1))[0])
-    tip = PressedTip(factor, force_exponent(indenter), STIFFNESS)
+    tip = PressedTip(elastic_indentation(indenter), 1 / STIFFNESS)
     mean = lag_mean(vc.Material(law, NU).contact_compliance())
-    return times, way, tip.bending(times, way, mean)
+    return times, way, tip.force(times, way, mean) / STIFFNESS
 
 
 @pytest.mark.parametrize("tip", TIPS)

@@ -17,11 +17,11 @@ from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.adhesion_fit import AdhesionFit
 from viscontact.identification.adhesive_problem import AdhesiveProblem, AdhesiveRows
+from viscontact.identification.elastic_indentation import indenter_profile
 from viscontact.identification.estimation import Estimate, estimated
 from viscontact.identification.fit_quality import SMALL, WIDENED
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.force_curve import ForceCurve
-from viscontact.identification.record import indenter_profile
 from viscontact.reference import SphereProfile
 
 #: Tabor numbers that a fit can determine: beyond them the curves are those of the limits.

@@ -9,13 +9,9 @@ from scipy.optimize import least_squares
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.indenters import Indenter
+from viscontact.identification.elastic_indentation import elastic_indentation
 from viscontact.identification.force_curve import ForceCurve
-from viscontact.identification.record import (
-    Cantilever,
-    IndentationRecord,
-    elastic_force,
-    force_exponent,
-)
+from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.stroke import Stroke
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import whole
@@ -152,7 +148,7 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
     if not 0 < reach <= 1:
         raise ValueError(f"find_contact: reach must lie between 0 and 1, got {reach!r}")
     z, d = (column[: curve.loading_rows] for column in (curve.position, curve.deflection))
-    elastic_force(indenter, np.zeros(1))  # refuses other indenters
+    elastic_indentation(indenter)  # refuses other indenters
     z, d = _within_reach(z, d, reach)
     start = _first_search(indenter, curve.spring_constant, z, d)
     middle, extent = float(z.mean()), float(np.ptp(z))
@@ -196,21 +192,15 @@ def deflection_in_contact(
     """Deflection y >= 0 with k y = E* f(way - y), from the base's way after contact [m]."""
     way = np.maximum(way, 0.0)
     ratio = contact_modulus / spring_constant
+    elastic = elastic_indentation(indenter)
     depth = way.copy()
     for _ in range(_NEWTON_STEPS):
-        bent = ratio * elastic_force(indenter, depth)
-        # f is a power of the depth: its derivative is exponent f/depth.
-        rate = ratio * force_exponent(indenter) * _per_depth(indenter, depth)
-        step = (depth + bent - way) / (1.0 + rate)
+        force, slope = elastic.force_and_slope(depth)
+        step = (depth + ratio * force - way) / (1.0 + ratio * slope)
         depth = np.maximum(depth - step, 0.0)
         if np.abs(step).max(initial=0.0) <= 1e-15 * np.abs(way).max(initial=0.0):
             break
     return np.asarray(way - depth)
-
-
-def _per_depth(indenter: Indenter, depth: Floats) -> Floats:
-    safe = np.maximum(depth, np.finfo(np.float64).tiny ** 0.25)
-    return elastic_force(indenter, safe) / safe
 
 
 def _within_reach(z: Floats, d: Floats, reach: float) -> tuple[Floats, Floats]:
@@ -224,6 +214,7 @@ def _first_search(
     indenter: Indenter, spring_constant: float, z: Floats, d: Floats
 ) -> tuple[float, float, float, float]:
     """Offset [m], slope, contact position [m] and modulus [Pa] of the best candidate."""
+    elastic = elastic_indentation(indenter)
     least = max(int(_LEAST_BASELINE * z.size), 4)
     best = (np.inf, (0.0, 0.0, 0.0, 0.0))
     for place in np.unique(np.linspace(least, z.size - 4, _CANDIDATES).astype(int)):
@@ -231,7 +222,7 @@ def _first_search(
         bending = d - offset - slope * z
         depth = np.maximum(z - z[place] - bending, 0.0)
         depth[:place] = 0.0
-        unit = elastic_force(indenter, depth) / spring_constant
+        unit = elastic.force(depth) / spring_constant
         if not unit.any():
             continue
         modulus = float(unit @ bending) / float(unit @ unit)

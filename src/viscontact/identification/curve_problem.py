@@ -12,12 +12,8 @@ from scipy.interpolate import PchipInterpolator
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate
-from viscontact.identification.record import (
-    Cantilever,
-    IndentationRecord,
-    elastic_force,
-    force_exponent,
-)
+from viscontact.identification.elastic_indentation import ElasticIndentation
+from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.stroke import Stroke
 from viscontact.identification.tip_contact import PressedTip
 from viscontact.reference.lag_means import lag_mean
@@ -42,6 +38,7 @@ class CurveProblem:
     stroke: Stroke
     shape: Candidate
     material: Callable[..., Material]
+    elastic: ElasticIndentation
     drag: bool = False
 
     @cached_property
@@ -66,13 +63,6 @@ class CurveProblem:
     def depth(self) -> float:
         """Largest indentation, the unit of the contact point [m]."""
         return max(float(self.record.approach.max()), 1e-3 * self.scale)
-
-    @cached_property
-    def tip(self) -> PressedTip:
-        """Tip on its cantilever."""
-        indenter = self.record.indenter
-        factor = float(elastic_force(indenter, np.ones(1))[0])
-        return PressedTip(factor, force_exponent(indenter), self.cantilever.spring_constant)
 
     @cached_property
     def columns(self) -> dict[str, Floats]:
@@ -138,7 +128,9 @@ class CurveProblem:
             return np.zeros_like(self.deflection)
         nodes = self.stroke.nodes(contact, finer)
         mean = lag_mean(self.law_of(free).contact_compliance())
-        bent = self.tip.bending(nodes, self.stroke.at(nodes) - contact, mean)
+        k = self.cantilever.spring_constant
+        tip = PressedTip(self.elastic, 1 / k)
+        bent = tip.force(nodes, self.stroke.at(nodes) - contact, mean) / k
         # The bending is smooth between corners, where nodes are close.
         rows = np.clip(self.stroke.times, nodes[0], nodes[-1])
         course = PchipInterpolator(nodes, bent)(rows)

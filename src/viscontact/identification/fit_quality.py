@@ -24,6 +24,7 @@ _PERIODS = 2.5  # fewer over the rows before contact are a curved baseline
 _FINER = 16  # times as many periods as the rows resolve
 _LEFT_OUT = "adhesion, a thin sample on a stiff base, or a tip of another shape"
 _WELL_BEFORE = 0.8  # of the rows before contact
+_DEEP = 0.1  # of the thickness of a film: a deeper indentation is of large strains
 _WIDE = 0.5  # contact radius over radius of a sphere from which on it is no paraboloid
 
 
@@ -117,10 +118,14 @@ def _period(fit: IndentationFit, free: Bools) -> float | None:
 
 
 def _depth(fit: IndentationFit) -> Iterator[str]:
-    """Warning of a contact so wide that a sphere is no paraboloid any more."""
-    profile = fit.record.profile
-    fitted = fit.record.times <= fit.until
-    deepest = float(fit.record.approach[fitted].max())
+    """Warnings of an indentation beyond small strains, or beyond a paraboloid for a sphere."""
+    profile, deepest = fit.record.profile, fit.deepest
+    if fit.thickness is not None and deepest > _DEEP * fit.thickness:
+        yield (
+            f"the largest depth of {format_quantity(deepest, 'm', 3)} is "
+            f"{100 * deepest / fit.thickness:.2g} % of the thickness of the film: the solution "
+            "holds for small strains; end the fit before with until"
+        )
     if not isinstance(profile, SphereProfile) or deepest <= 0:
         return
     radius = np.sqrt(profile.radius * deepest)

@@ -14,12 +14,19 @@ from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate, candidate
 from viscontact.identification.curve_problem import CurveProblem
+from viscontact.identification.elastic_indentation import (
+    WIDEST,
+    ElasticIndentation,
+    Film,
+    elastic_indentation,
+)
 from viscontact.identification.fit_quality import fit_warnings, misfit_of
 from viscontact.identification.fitted_part import fitted_rows, stroke_of
 from viscontact.identification.fitting import fitted_curve, fitted_record
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.record_problem import RecordProblem
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import positive, whole
 
 
@@ -34,6 +41,7 @@ def fit_indentation(  # noqa: PLR0913
     confidence: float = 0.95,
     until: str | float | None = None,
     reference_time: float | None = None,
+    thickness: float | None = None,
 ) -> IndentationFit:
     """Fit a law to an indentation record by its exact solution, with confidence intervals.
 
@@ -62,6 +70,9 @@ def fit_indentation(  # noqa: PLR0913
     reference_time : float, optional
         Time at which a power law states its compliance [s], so that those of several curves can be
         compared; by default the duration of the fitted part, from contact on.
+    thickness : float, optional
+        Thickness of a film that is bonded to a rigid base [m]; it needs a Poisson's ratio. By
+        default the body is as deep as a half-space.
 
     Returns
     -------
@@ -73,7 +84,8 @@ def fit_indentation(  # noqa: PLR0913
     ------
     ValueError
         If the law has no such name, an option is out of range, the record has fewer rows than
-        twice the parameters, or the body is so stiff or soft that no fit exists.
+        twice the parameters, or the body is so stiff or soft that no fit exists; if the contact is
+        more than 8 thicknesses of a film in radius, or a record on a film has a second approach.
 
     Warns
     -----
@@ -81,7 +93,8 @@ def fit_indentation(  # noqa: PLR0913
         If the record determines a parameter no better than within a factor of ten; if the law
         misses the record by more than 10 % (root mean square) or 25 % (largest) of the largest
         value; if the residuals are no noise, with the likely cause; if the force becomes negative
-        during retraction; if a sphere is no paraboloid any more at the largest depth.
+        during retraction; if a sphere is no paraboloid any more at the largest depth, or if that is
+        more than a tenth of the thickness of a film.
 
     Notes
     -----
@@ -95,6 +108,10 @@ def fit_indentation(  # noqa: PLR0913
     The force under a given approach, or the reverse, is the exact solution for an axisymmetric
     contact on a viscoelastic half-space, of Hunter, Graham and Ting (1966), through
     unloading, loss of contact and renewed contact: `viscontact.reference.press_axisymmetric`.
+    On a film the elastic force over the indentation is that of a layer on a rigid base, from the
+    integral equation of `viscontact.reference.layer_sphere` (Dimitriadis et al. 2002 and Garcia and
+    Garcia 2018 give expansions of it), and creep follows it as it does on a half-space.
+
     Least squares in the logarithms of the parameters (of n/(1 - n) for an exponent n). The
     intervals are those of the linearised model there, in all unknowns, with Student's t and the
     scatter that the residuals show. Where their spectrum is not that of independent noise, the
@@ -115,9 +132,13 @@ def fit_indentation(  # noqa: PLR0913
     _require_options(terms, given, confidence)
     material = partial(Material, poisson_ratio=poisson_ratio, bulk_modulus=bulk_modulus)
     material(Elastic(1.0))  # checks the bulk arguments
-    modulus = _apparent_modulus(record, poisson_ratio)
+    film = None if thickness is None else _film(thickness, poisson_ratio, given)
+    elastic = elastic_indentation(record.indenter, film)
+    modulus = _apparent_modulus(record, poisson_ratio, elastic)
     fitted = record.first(fitted_rows(record, until))
     is_curve = record.cantilever is not None and given == "approach"
+    if film is not None and not is_curve:
+        _require_one_approach(fitted)
     if not is_curve:
         fitted = fitted.near_contact()
     if reference_time is not None:
@@ -125,12 +146,14 @@ def fit_indentation(  # noqa: PLR0913
     shape = _candidate(law, int(terms), modulus, fitted, reference_time)
     with limit_threads():  # on matrices this small, more threads mostly wait
         if is_curve:
-            curve = CurveProblem(fitted, stroke_of(fitted), shape, material)
+            curve = CurveProblem(fitted, stroke_of(fitted), shape, material, elastic)
             found = fitted_curve(curve, record, confidence)
         else:
-            plain = RecordProblem(fitted, given, shape, material)
+            plain = RecordProblem(fitted, given, shape, material, elastic)
             found = fitted_record(plain, record, confidence)
+    found = replace(found, thickness=thickness)
     found = replace(found, misfit=misfit_of(found))
+    _require_narrow(found, elastic)
     for message in fit_warnings(found):
         warn(f"fit_indentation: {message}", AccuracyWarning, stacklevel=2)
     return found
@@ -155,13 +178,49 @@ def _candidate(
     return shape
 
 
-def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) -> float:
+def _film(thickness: float, poisson_ratio: float | None, given: str) -> Film:
+    """Film of a thickness, if the options go with one."""
+    if poisson_ratio is None:
+        raise ValueError(
+            "fit_indentation: thickness goes with poisson_ratio, not with bulk_modulus: the "
+            "stiffness of a film depends on Poisson's ratio, which must be constant"
+        )
+    if given != "approach":
+        raise ValueError("fit_indentation: thickness goes with given='approach'")
+    return Film(positive("fit_indentation: thickness", thickness, "m"), float(poisson_ratio))
+
+
+def _require_one_approach(record: IndentationRecord) -> None:
+    """Refuse a record on a film that approaches again."""
+    second = stroke_of(record).second_approach
+    if second is not None:
+        raise ValueError(
+            "fit_indentation: on a film a record may have one approach and retraction, but a "
+            f"second approach begins at {format_quantity(record.times[second], 's', 4)}; end the "
+            "fit before with until, or fit through the simulator"
+        )
+
+
+def _require_narrow(fit: IndentationFit, elastic: ElasticIndentation) -> None:
+    """Refuse a contact beyond the table of a film."""
+    ratio = elastic.contact_ratio(fit.deepest)
+    if ratio > WIDEST:
+        raise ValueError(
+            f"fit_indentation: the contact is {ratio:.2g} times as wide from its centre as the "
+            f"film is thick, and the solution ends at {WIDEST:g}; end the fit before with until, "
+            "or fit through the simulator"
+        )
+
+
+def _apparent_modulus(
+    record: IndentationRecord, poisson_ratio: float | None, elastic: ElasticIndentation
+) -> float:
     """Shear modulus of the best-fitting elastic body [Pa]."""
     # Any Poisson's ratio suffices for a starting value.
     nu = 0.4 if poisson_ratio is None else poisson_ratio
     pressed = slice(stroke_of(record).hold_end + 1)  # adhesion acts later
     d, F = record.approach[pressed], record.force[pressed]
-    unit = record.elastic_force(np.maximum(d, 0.0))  # for a contact modulus of 1 Pa
+    unit = elastic.force(np.maximum(d, 0.0))  # for a contact modulus of 1 Pa
     contact_modulus = float(unit @ F) / max(float(unit @ unit), 1e-300)
     if not contact_modulus > 0:
         raise ValueError(

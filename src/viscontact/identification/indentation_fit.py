@@ -58,6 +58,8 @@ class IndentationFit(Displayable, Plotted):
     misfit : Misfit or None
         Size, reason and remedy of a misfit beyond 10 % (root mean square) or 25 % (largest) of the
         largest force, or approach; None if the law fits better.
+    thickness : float or None
+        Thickness of the film [m]; None for a half-space.
 
     Examples
     --------
@@ -86,6 +88,12 @@ class IndentationFit(Displayable, Plotted):
     contact: FittedContact | None = None
     widening: float = 1.0
     misfit: Misfit | None = None
+    thickness: float | None = None
+
+    @property
+    def deepest(self) -> float:
+        """Largest approach that was fitted [m]."""
+        return float(self.record.approach[self.record.times <= self.until].max())
 
     @property
     def law(self) -> Law:
@@ -146,7 +154,7 @@ class IndentationFit(Displayable, Plotted):
             intervals,
             units,
             self.residual,
-            float(self.record.approach[fitted].max()),
+            self.deepest,
             float(self.record.force[fitted].max()),
         )
 
@@ -157,6 +165,8 @@ class IndentationFit(Displayable, Plotted):
             f"{format_quantity(np.ptp(fitted), 's')}, residual {self.residual:.2e} of "
             f"the largest {'force' if self.given == 'approach' else 'approach'}"
         ]
+        if self.thickness is not None:
+            lines.append(f"     film of {format_quantity(self.thickness, 'm', 4)} on a rigid base")
         stated = self.in_numbers("")
         for name, value in stated.values.items():
             line = f"     {name} = {value:.4g} {stated.units[name] or '(-)'}"

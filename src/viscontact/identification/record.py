@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Paraboloid, Pyramid, Sphere
+from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.series_fits.columns import columns_over_time
+from viscontact.identification.elastic_indentation import elastic_indentation, indenter_profile
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import real_array, store
 
 _LEAST_ROWS = 5
-
-#: Force of a pyramid over E* tan(half angle) d², by its number of faces [-]: of contacts on
-#: half-spaces of up to 512² cells, which change them by less than 1e-4 from 384² on. Bilodeau
-#: (1992, J. Appl. Mech. 59, 519) approximates that of four faces by 0.7453.
-PYRAMIDS = {3: 0.8824, 4: 0.7376}
 
 
 @dataclass(frozen=True)
@@ -134,44 +129,4 @@ class IndentationRecord(Displayable):
             4/3 sqrt(R) d^1.5 (Hertz), 2/π tan(half angle) d² (Sneddon), 2 a d (Boussinesq), and
             0.8824 or 0.7376 tan(half angle) d² of a pyramid with three or four faces.
         """
-        return elastic_force(self.indenter, real_array("approach", approach, "m"))
-
-
-def indenter_profile(indenter: Indenter) -> SphereProfile | ConeProfile | PunchProfile:
-    """Profile of the exact solution for an indenter; ValueError for one without.
-
-    The contacts of a pyramid are all similar, as those of a cone are. Force and approach are those
-    of the cone of equal force therefore, on a body that creeps, too (Graham 1967).
-    """
-    match indenter:
-        case Sphere(radius=radius):
-            return SphereProfile(radius)
-        case Paraboloid(radius_x=radius, radius_y=other) if radius == other:
-            return SphereProfile(radius)
-        case Cone(half_angle=half_angle):
-            return ConeProfile(half_angle)
-        case Pyramid(half_angle=half_angle, faces=faces) if faces in PYRAMIDS:
-            return ConeProfile(math.atan(math.pi / 2 * PYRAMIDS[faces] * math.tan(half_angle)))
-        case FlatPunch(radius=radius) if radius is not None:
-            return PunchProfile(radius)
-    raise ValueError(
-        "IndentationRecord.indenter: must be a Sphere, a Cone, a Pyramid with 3 or 4 faces, or a "
-        f"round FlatPunch(radius), got {indenter!r}"
-    )
-
-
-def elastic_force(indenter: Indenter, approach: Floats) -> Floats:
-    """Force on an elastic body of contact modulus 1 Pa under an approach >= 0 [N]."""
-    match indenter_profile(indenter):
-        case SphereProfile(radius=radius):
-            return np.asarray(4 / 3 * math.sqrt(radius) * approach**1.5)
-        case ConeProfile(half_angle=half_angle):
-            return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
-        case PunchProfile(radius=radius):
-            return np.asarray(2 * radius * approach)
-
-
-def force_exponent(indenter: Indenter) -> float:
-    """Exponent of the depth in the force: 1.5, 2 or 1."""
-    one, two = elastic_force(indenter, np.array([1.0, 2.0]))
-    return float(np.log2(two / one))
+        return elastic_indentation(self.indenter).force(real_array("approach", approach, "m"))

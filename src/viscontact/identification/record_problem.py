@@ -12,8 +12,11 @@ from viscontact import reference
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate
+from viscontact.identification.elastic_indentation import ElasticIndentation
 from viscontact.identification.indentation_fit import compared
 from viscontact.identification.record import IndentationRecord
+from viscontact.identification.tip_contact import PressedTip
+from viscontact.reference.lag_means import lag_mean
 
 _ELEMENTS = 60  # relative error of the force about 1e-4, far below the scatter of any record
 _LEAD = 2.0  # steps: a record that begins less deep than these began at contact
@@ -27,6 +30,7 @@ class RecordProblem:
     given: str
     shape: Candidate
     material: Callable[..., Material]
+    elastic: ElasticIndentation
 
     @cached_property
     def _counted(self) -> Bools:
@@ -72,7 +76,10 @@ class RecordProblem:
 
     def exact(self, material: Material) -> Floats:
         """Exact solution for the other quantity of the record [N or m]."""
-        times, approach, force, lead = _from_contact(self.record)
+        times, approach, force, lead = _from_contact(self.record, self.elastic)
+        if self.elastic.film is not None:
+            mean = lag_mean(material.contact_compliance())
+            return PressedTip(self.elastic).force(times, approach, mean)[lead:]
         contact = reference.press_axisymmetric(
             self.record.profile,
             times,
@@ -89,7 +96,9 @@ class RecordProblem:
         return np.asarray(response)
 
 
-def _from_contact(record: IndentationRecord) -> tuple[Floats, Floats, Floats, int]:
+def _from_contact(
+    record: IndentationRecord, elastic: ElasticIndentation
+) -> tuple[Floats, Floats, Floats, int]:
     """Times, approach and force from first contact on, and the number of rows put before."""
     # A first row that is in contact by a step or two, or within the noise of the force, was reached
     # at the rate of what follows, not in a jump.
@@ -100,7 +109,7 @@ def _from_contact(record: IndentationRecord) -> tuple[Floats, Floats, Floats, in
     row = int(later[0])
     step, duration = float(d[row] - d[0]), float(t[row] - t[0])
     noise = float(np.sqrt(np.mean(np.diff(F, 2) ** 2) / 6)) if F.size > 2 else 0.0
-    shallow = float(record.elastic_force(d[:1] / d.max())[0] / record.elastic_force(np.ones(1))[0])
+    shallow = elastic.force(float(d[0])) / elastic.force(float(d.max()))
     if d[0] > _LEAD * step and shallow * F.max() > 2 * noise:
         return t, d, F, 0
     before = t[0] - duration * float(d[0]) / step

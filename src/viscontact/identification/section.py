@@ -75,6 +75,9 @@ def material_section(
         volume = _volume(fit.poisson_ratio, fit.bulk_modulus)
     doubts, shift = _shift_of(fit, curve, temperature)
     lines = [*_warning(fit, doubts), *_law(law), f"data: {data}", volume, *shift]
+    if isinstance(fit, IndentationFit) and fit.thickness is not None:
+        layer = [f"thickness: {_number(1e6 * fit.thickness)} um", *lines]
+        lines = ["layers:", f"- {layer[0]}", *(f"  {line}" for line in layer[1:]), "base: rigid"]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
 
 

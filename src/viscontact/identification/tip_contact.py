@@ -1,14 +1,14 @@
-"""Bending of a cantilever whose tip is pressed on a creeping body once, and drawn back."""
+"""Force on a tip that is pressed on a creeping body once, and drawn back."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg.lapack import dtrtri
 
 from viscontact.backend.arrays import Floats
+from viscontact.identification.elastic_indentation import ElasticIndentation
 from viscontact.reference.lag_means import LagMean
 
 _NEWTON_STEPS = 60  # far more than needed: the function is convex and grows
@@ -16,97 +16,101 @@ _NEWTON_STEPS = 60  # far more than needed: the function is convex and grows
 
 @dataclass(frozen=True)
 class PressedTip:
-    """Tip with elastic force E* factor h^exponent, on a cantilever of a spring constant [N/m]."""
+    """Tip that is pressed once, through a spring whose base moves.
 
-    factor: float  # force at an indentation of 1 m and E* = 1 Pa
-    exponent: float  # 1.5 of a sphere, 2 of a cone, 1 of a punch
-    spring_constant: float
+    Without compliance the spring is rigid, and the indentation is the way of its base.
+    """
 
-    @property
-    def grows(self) -> bool:
-        """True if the contact grows with the indentation, as that of a punch does not."""
-        return self.exponent > 1
+    elastic: ElasticIndentation
+    spring_compliance: float = 0.0  # [m/N]
 
-    def bending(self, times: Floats, way: Floats, mean: LagMean) -> Floats:
-        """Bending of the cantilever at instants from contact on [m].
+    def force(self, times: Floats, way: Floats, mean: LagMean) -> Floats:
+        """Force at instants from contact on [N].
 
-        `way` is that of its base since contact, 0 at the first instant [m]; `mean` that of the
+        `way` is that of the base since contact, 0 at the first instant [m]; `mean` that of the
         contact compliance over lags [1/Pa]. The indentation is the way less the bending. While
-        the contact grows the force is the integral of M(t - t') d(factor h^exponent); when it
-        shrinks the integral ends at the instant t_1 at which the contact was as large, with
-        integral of M(t - t') dh = 0 from t_1 to t (Ting 1966). The force on each rod of the
-        contact changes evenly within a step, as in `press_axisymmetric`.
+        the contact grows the force is the integral of M(t - t') dF, F(h) the elastic force for a
+        contact modulus of 1 Pa; when it shrinks the integral ends at the instant t_1 at which the
+        contact was as large, with integral of M(t - t') dh = 0 from t_1 to t (Ting 1966, whose
+        argument holds for a film as for a half-space: only one law of time is needed). The
+        pressure of each ring of the contact changes evenly within a step, as in
+        `press_axisymmetric`.
         """
         march = _March(self, relaxation_weights(times, mean), times.size)
         for i in range(1, times.size):
             if not march.advance(i, float(way[i])):
                 break
-        return march.bent
+        return march.forces
 
 
 class _March:
-    """Indentation and bending of a pressed tip, step by step."""
+    """Indentation and force of a pressed tip, step by step."""
 
     def __init__(self, tip: PressedTip, weights: Floats, count: int) -> None:
         self._tip, self._weights = tip, weights
-        self._depth, self.bent = np.zeros(count), np.zeros(count)
-        # changes over each step of indentation and of factor h^exponent
+        self._depth, self.forces = np.zeros(count), np.zeros(count)
+        self._elastic = np.zeros(count)  # elastic force at each indentation
+        # changes over each step of indentation and of elastic force
         self._deeper, self._grown = np.zeros(count), np.zeros(count)
         self._widest = 0  # instant of the largest contact
 
     def advance(self, i: int, way: float) -> bool:
         """Take a step to an instant; False if contact is lost."""
         row = self._weights[i, : i + 1]
-        depth = self._growing(i, row, way)
-        if self._tip.grows and depth < self._depth[self._widest]:
+        depth, force = self._growing(i, row, way)
+        if self._tip.elastic.grows and depth < self._depth[self._widest]:
             shrunk = self._shrinking(i, row, way)
             if shrunk is not None:
-                depth = shrunk
+                depth, force = shrunk
         else:
             self._widest = i
-        if depth >= way:
+        if force <= 0:
             return False
-        self._depth[i], self.bent[i] = depth, way - depth
+        self._depth[i], self.forces[i] = depth, force
         self._deeper[i] = depth - self._depth[i - 1]
-        n = self._tip.exponent
-        grown = abs(depth) ** n - abs(float(self._depth[i - 1])) ** n
-        self._grown[i] = self._tip.factor * grown
+        self._elastic[i] = self._tip.elastic.force(abs(depth))
+        self._grown[i] = self._elastic[i] - self._elastic[i - 1]
         return True
 
-    def _growing(self, i: int, row: Floats, way: float) -> float:
-        """Indentation if the contact grows: by Newton's method, from above [m]."""
-        tip, before = self._tip, float(self._depth[i - 1])
-        k, n = tip.spring_constant, tip.exponent
-        own = float(row[i]) * tip.factor
-        known = float(row[:i] @ self._grown[:i]) - own * max(before, 0.0) ** n - k * way
-        depth = float(max(way, before, 1e-300))
-        if n == 1:
-            return float(-known / (own + k))
+    def _growing(self, i: int, row: Floats, way: float) -> tuple[float, float]:
+        """Indentation [m] and force [N] if the contact grows: by Newton's method, from above."""
+        elastic, c = self._tip.elastic, self._tip.spring_compliance
+        own, before = float(row[i]), float(self._elastic[i - 1])
+        if self._depth[i - 1] < 0:
+            before = 0.0
+        known = float(row[:i] @ self._grown[:i]) - own * before
+        depth = float(max(way, float(self._depth[i - 1]), 1e-300))
+        if not elastic.grows:
+            unit = elastic.force(1.0)
+            depth = (way - c * known) / (1 + c * own * unit)
+            return depth, known + own * unit * depth
         for _ in range(_NEWTON_STEPS):
-            slope = own * math.pow(depth, n - 1)
-            step = (known + slope * depth + k * depth) / (n * slope + k)
+            pressed, slope = elastic.force_and_slope(depth)
+            step = (depth + c * (known + own * pressed) - way) / (1 + c * own * slope)
             depth -= step
             if depth <= 0:
-                return 0.0
+                return 0.0, 0.0
             if abs(step) <= 1e-13 * depth:
                 break
-        return depth
+        return depth, known + own * elastic.force(depth)
 
-    def _shrinking(self, i: int, row: Floats, way: float) -> float | None:
-        """Indentation if the contact shrinks, inf if it is lost, None if it grows after all [m]."""
-        k, last = self._tip.spring_constant, self._widest + 1
+    def _shrinking(self, i: int, row: Floats, way: float) -> tuple[float, float] | None:
+        """Indentation and force if the contact shrinks, 0 if it is lost; None if it grows."""
+        c, last = self._tip.spring_compliance, self._widest + 1
         recovered = np.cumsum(row[:i] * self._deeper[:i])
         # Indentation and force if the contact is as large as at each earlier instant.
         depths = self._depth[i - 1] - (recovered[-1] - recovered[:last]) / row[i]
         forces = np.cumsum(row[:last] * self._grown[:last])
-        excess = forces + k * (depths - way)
+        excess = c * forces + depths - way
         if excess[-1] < 0:
             return None
         if excess[0] >= 0:
-            return math.inf
+            return 0.0, 0.0
         upper = int(np.argmax(excess >= 0))
         share = -excess[upper - 1] / (excess[upper] - excess[upper - 1])
-        return float(depths[upper - 1] + share * (depths[upper] - depths[upper - 1]))
+        reached = ((1 - share) * each[upper - 1] + share * each[upper] for each in (depths, forces))
+        depth, force = reached
+        return float(depth), float(force)
 
 
 def relaxation_weights(times: Floats, mean: LagMean) -> Floats:

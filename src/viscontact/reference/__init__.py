@@ -25,7 +25,7 @@ from viscontact.reference.indentation import (
     press_axisymmetric,
     resolution_error,
 )
-from viscontact.reference.layer import LayerContact, layer_punch, layer_sphere
+from viscontact.reference.layer import LayerContact, layer_cone, layer_punch, layer_sphere
 from viscontact.reference.layer_torsion import layer_torsion
 from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
 from viscontact.reference.lee_radok_contact import LeeRadokContact
@@ -109,6 +109,7 @@ __all__ = [
     "hertz_line",
     "hertz_sphere",
     "jkr_sphere",
+    "layer_cone",
     "layer_punch",
     "layer_sphere",
     "layer_torsion",

@@ -1,4 +1,4 @@
-"""Round punch and sphere on an elastic layer on a rigid base, by a Fredholm integral equation.
+"""Round punch, sphere and cone on an elastic layer on a rigid base, by an integral equation.
 
 The Hankel transform of the pressure is written as P(q) = ∫_0^a φ(t) cos(q t) dt, so that an inverse
 Abel transform turns the surface displacement δ - f(r) under the body into
@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.reference.profiles import ConeProfile, Profile, SphereProfile
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array
 
@@ -144,13 +145,60 @@ def layer_sphere(
     >>> print(f"{ball.force / modulus:.6f}, half-space {4 / 3:.6f}")
     1.730067, half-space 1.333333
     """
-    require_positive("m", contact_radius=contact_radius, radius=radius)
+    profile = SphereProfile(radius)
+    require_positive("m", contact_radius=contact_radius)
     layer = _Layer.of(thickness, shear_modulus, poisson_ratio, bonded=bonded)
-    equation = _Equation(layer, contact_radius)
-    level, curved = equation.solve(np.ones_like), equation.solve(lambda t: t**2 / radius)
-    approach = curved.edge / level.edge
-    densities = approach * level.densities - curved.densities
-    return equation.contact(_Density(densities, 0.0), approach)
+    return _Equation(layer, contact_radius).smooth_contact(profile)
+
+
+def layer_cone(
+    contact_radius: float,
+    half_angle: float,
+    thickness: float,
+    *,
+    shear_modulus: float,
+    poisson_ratio: float,
+    bonded: bool = True,
+) -> LayerContact:
+    """Contact of a rigid cone with an elastic layer on a rigid base.
+
+    Parameters
+    ----------
+    contact_radius : float
+        Radius a of the contact [m].
+    half_angle : float
+        Angle between the axis and the side, between 0 and π/2 [rad].
+    thickness : float
+        Thickness h of the layer [m].
+    shear_modulus : float
+        Shear modulus of the layer [Pa].
+    poisson_ratio : float
+        Poisson's ratio of the layer, 0 to 0.5 [-].
+    bonded : bool, optional
+        The layer is bonded to its base; otherwise it slips there without friction.
+
+    Returns
+    -------
+    LayerContact
+        The force and the approach of this contact radius.
+
+    Raises
+    ------
+    ValueError
+        If a length, the angle or the modulus is out of range, or Poisson's ratio is.
+
+    Examples
+    --------
+    A thick layer: Sneddon's force E* a² π cot(half angle)/2 (1965):
+
+    >>> cone = layer_cone(1.0, math.pi / 4, 1e3, shear_modulus=0.25, poisson_ratio=0.5)
+    >>> print(f"{cone.force:.3f}, {math.pi / 2:.3f}")
+    1.573, 1.571
+    """
+    profile = ConeProfile(half_angle)
+    require_positive("m", contact_radius=contact_radius)
+    layer = _Layer.of(thickness, shear_modulus, poisson_ratio, bonded=bonded)
+    return _Equation(layer, contact_radius).smooth_contact(profile)
 
 
 def layer_punch(
@@ -276,6 +324,13 @@ class _Equation:
         densities = np.linalg.solve(self._matrix, displacement(self.places) / scale)
         edge = float(displacement(np.array(self._radius))) / scale - self._edge_row @ densities
         return _Density(densities, float(edge))
+
+    def smooth_contact(self, profile: Profile) -> LayerContact:
+        """Contact of a profile whose pressure is zero at the rim: the approach makes it so."""
+        level, curved = self.solve(np.ones_like), self.solve(profile.depth)
+        approach = curved.edge / level.edge
+        densities = approach * level.densities - curved.densities
+        return self.contact(_Density(densities, 0.0), approach)
 
     def contact(self, found: _Density, approach: float) -> LayerContact:
         """The contact of a density."""

@@ -131,6 +131,15 @@ Body = Annotated[
         "the axis to a face), berkovich, vickers, cube-corner, or 'punch 2 um' (radius).",
     ),
 ]
+Thickness = Annotated[
+    str | None,
+    typer.Option(
+        "--thickness",
+        metavar="H",
+        help="Thickness of a film that is bonded to a rigid base, e.g. '20 um'; by default the "
+        "sample is as deep as a half-space.",
+    ),
+]
 SpringConstant = Annotated[
     str | None,
     typer.Option(
@@ -307,6 +316,7 @@ def fit(
     shift: Shift = None,
     thermal_strain: ThermalStrain = None,
     indenter: Body = None,
+    thickness: Thickness = None,
     adhesion: Adheres = False,
     spring_constant: SpringConstant = None,
     sensitivity: Sensitivity = None,

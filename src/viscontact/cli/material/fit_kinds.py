@@ -31,6 +31,7 @@ GOES_WITH = {
     "until": _INDENTED,
     "law": _INDENTED,
     "reference_time": _INDENTED,
+    "thickness": _INDENTED,
     "spring_constant": _CURVE,
     "reach": _CURVE,
     "adhesion": _CURVE,
@@ -62,7 +63,7 @@ class Kind:
 
     def _with_adhesion(self) -> Kind:
         """The same force curve where its adhesion is fitted: the body is elastic."""
-        options = self.options - {"law", "until", "reference_time", "reach"}
+        options = self.options - {"law", "until", "reference_time", "thickness", "reach"}
         return Kind(f"{self.name}, fitted as a whole with --adhesion to an elastic body", options)
 
 
@@ -75,7 +76,7 @@ def switch(parameter: str) -> str:
 _OF_TABLES = frozenset({"columns", "stress"})
 _OF_SERIES = _OF_TABLES | {"data", "fluid"}
 _OF_WARMED = _OF_SERIES | {"reference", "temperature"}
-_OF_INDENTATIONS = frozenset({"indenter", "until", "law", "reference_time"})
+_OF_INDENTATIONS = frozenset({"indenter", "until", "law", "reference_time", "thickness"})
 _OF_CURVES = _OF_INDENTATIONS | {"spring_constant", "reach", "adhesion"}
 
 INDENTATION = Kind("an indentation record with its approach", _OF_INDENTATIONS | _OF_TABLES)

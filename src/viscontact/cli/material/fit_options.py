@@ -56,6 +56,7 @@ class FitArguments:
     shift: str | None = None
     thermal_strain: bool | None = None
     reference_time: str | None = None
+    thickness: str | None = None
 
     @classmethod
     def of(cls, typed: Mapping[str, Any]) -> Self:
@@ -181,6 +182,9 @@ class FitArguments:
         reference = None
         if self.reference_time is not None:
             reference = _read_option("--reference-time", self.reference_time, "time")
+        thickness = None
+        if self.thickness is not None:
+            thickness = _read_option("--thickness", self.thickness, "length")
         return fit_indentation(
             record,
             self.indented_law,
@@ -189,6 +193,7 @@ class FitArguments:
             bulk_modulus=bulk_modulus,
             until=self.end(),
             reference_time=reference,
+            thickness=thickness,
         )
 
     def adhering(self, curve: ForceCurve, indenter: Indenter) -> AdhesionFit:

@@ -68,6 +68,8 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         low, high = (_format(end, unit) for end in fit.intervals[name])
         interval = f"{_format(value, unit)} ({level}: {low} to {high})"
         rows.append((name.replace("_", " "), interval))
+    if fit.thickness is not None:
+        rows.append(("film", f"{format_quantity(fit.thickness, 'm', 4)} on a rigid base"))
     if fit.contact is not None:
         low, high = (format_quantity(end, "m", 5) for end in fit.contact.position_interval)
         at = format_quantity(fit.contact.position, "m", 5)
