@@ -107,6 +107,7 @@ from .identification import fit_indentation as fit_indentation
 from .identification import fit_master_curve as fit_master_curve
 from .identification import fit_relaxation as fit_relaxation
 from .identification import read_force_curve as read_force_curve
+from .identification import read_force_map as read_force_map
 from .mechanics.state import ContactState as ContactState
 from .mechanics.state import Outcome as Outcome
 from .mechanics.time_integration.requested_times import adaptive_times as adaptive_times

@@ -54,6 +54,7 @@ USES = {
     "until": (["hold"], INDENTATIONS),
     "law": (["zener"], INDENTATIONS),
     "reference-time": (["1 s"], INDENTATIONS),
+    "thickness": (["20 um"], INDENTATIONS),
     "reach": (["0.5"], CURVES),
     "adhesion": ([], CURVES),
     "spring-constant": (["0.1 N/m"], CURVES),

@@ -145,3 +145,18 @@ def test_command_refuses(
 ) -> None:
     assert main(["fit", *typed]) == 2
     assert message in " ".join(capsys.readouterr().err.split())
+
+
+def test_places_are_kept_and_have_a_map_beside_each_histogram() -> None:
+    moduli = [300.0, 1e3, 5e3, 2e3]
+    records = {f"{modulus:g}": hertz(modulus) for modulus in moduli}
+    places = {name: (1e-6 * (n % 2), 1e-6 * (n // 2)) for n, name in enumerate(records)}
+    fits = fit_each(elastic, records, places=places)
+    assert [each.place for each in fits.curves] == list(places.values())
+    figure = curve_fits(fits)
+    labels = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]
+    assert labels == ["Shear modulus [kPa]", "x [µm]", "Young's modulus [kPa]", "x [µm]"]
+    [squares] = figure.axes[1].collections
+    np.testing.assert_allclose(squares.get_array(), np.array(moduli) / 1e3, rtol=1e-6)
+    corners = [path.vertices[:4].mean(axis=0) for path in squares.get_paths()]
+    np.testing.assert_allclose(corners, 1e6 * np.array(list(places.values())), atol=1e-9)

@@ -71,7 +71,8 @@ def case_of(material, folder):
     path = folder / "film.yaml"
     path.write_text(
         f"{material}\nindenter: {{shape: sphere, radius: 5 um}}\n"
-        "load: {quantity: approach, points: [[0 s, 0 um], [1 s, 0.5 um]]}\ntime: {end: 1 s}\n",
+        "load: {kind: ramp, approach: 0.5 um, duration: 1 s}\n"
+        "time: {end: 1 s, steps: 10}\n",
         encoding="utf-8",
     )
     return path
@@ -126,10 +127,11 @@ def test_law_and_contact_point_of_a_raw_curve_on_a_film_are_found_together(tmp_p
         assert fit.parameters[name] == close_to(value, rel=0.02)
     assert abs(fit.contact.position) < 3e-9
     film = read_case(case_of(material_section(fit), tmp_path)).bodies[0]
-    assert film.depth == close_to(THICKNESS, rel=1e-6)
+    assert film.layers[0].thickness == close_to(THICKNESS, rel=1e-6)
 
 
-def record_of(course, tip=Sphere(RADIUS)):
+def record_of(course, radius=RADIUS):
+    tip = Sphere(radius)
     t = np.arange(float(len(course)))
     d = 1e-6 * np.array(course)
     force = elastic_indentation(tip, Film(THICKNESS, NU)).force(np.maximum(d, 0.0))
@@ -149,7 +151,7 @@ def test_what_a_film_does_not_go_with_is_refused():
     twice = record_of([*rise, *rise[-2::-1], *rise[1:]])
     with pytest.raises(ValueError, match="a second approach begins at 20 s"):
         fit_indentation(twice, "elastic", **film)
-    wide = record_of(rise, Sphere(1e-2))
+    wide = record_of(rise, 1e-2)
     with pytest.raises(ValueError, match=r"the contact is .* times as wide .* thick"):
         fit_indentation(wide, "elastic", **film)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import zipfile
 from pathlib import Path
 
@@ -101,6 +102,78 @@ def test_curves_of_a_map_are_named_by_their_numbers(tmp_path):
         np.testing.assert_allclose(curve.deflection, (number + 1) * bending, rtol=1e-6, atol=1e-16)
     with pytest.raises(ValueError, match=r"map.h5: has no curve 11; the last one is 10"):
         vc.read_force_curve(f"{tmp_path}/map.h5#11")
+
+
+def gel_map(path: Path, moduli: np.ndarray, untouched: int, **stated: object) -> None:
+    """Map of Hertz's curves for moduli of shape (across, along), numbered along x first [Pa]."""
+    times, far = np.linspace(0.0, 1.0, 240), np.linspace(0.0, 2e-6, 120)
+    depth = np.linspace(0.0, 8e-7, 120)
+    noise = np.random.default_rng(3)
+    with h5py.File(path, "w") as file:
+        file.attrs.update({"software": "afmformats", "software version": "0.18.7"})
+        for number, modulus in enumerate(moduli.T.ravel()):
+            i, j = number % moduli.shape[0], number // moduli.shape[0]
+            bent = 4 / 3 * modulus / 0.75 * np.sqrt(5e-6) * depth**1.5 / 0.1
+            bent = np.concatenate([0 * far, bent if number != untouched else 0 * bent])
+            position = np.concatenate([far, 2e-6 + depth]) + bent
+            curve = file.create_group(str(number))
+            curve.attrs.update({"spring constant": 0.1, "imaging mode": "force-distance"})
+            curve.attrs.update({"grid index x": i, "grid index y": j, **stated})
+            curve["time"], curve["height (piezo)"] = times, 5e-6 - position
+            curve["force"] = 0.1 * (bent + 1e-10 * noise.standard_normal(bent.size))
+
+
+MODULI = 1e3 * (1 + np.add.outer(np.arange(3), 0.1 * np.arange(2)))
+GRID = {f"grid {key} {axis}": value for key, value in (("center", 5e-6),) for axis in "xy"}
+GRID |= {"grid shape x": 3, "grid shape y": 2, "grid size x": 3e-6, "grid size y": 2e-6}
+
+
+def test_a_map_gives_all_curves_with_their_places(tmp_path):
+    gel_map(tmp_path / "gel.h5", MODULI, -1, **GRID)
+    gel = vc.read_force_map(tmp_path / "gel.h5")
+    assert list(gel.curves) == [f"gel.h5#{number}" for number in range(6)]
+    assert not gel.failures
+    # Numbers go along x first; the centre of the grid is at 5 um.
+    assert gel.places["gel.h5#0"] == close_to((4e-6, 4.5e-6), rel=1e-9)
+    assert gel.places["gel.h5#5"] == close_to((6e-6, 5.5e-6), rel=1e-9)
+    alone = vc.read_force_curve(f"{tmp_path}/gel.h5#4")
+    np.testing.assert_array_equal(gel.curves["gel.h5#4"].deflection, alone.deflection)
+
+
+def test_a_map_is_fitted_to_a_table_and_drawn_over_its_places(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    gel_map(tmp_path / "gel.h5", MODULI, 2, **GRID)
+    options = ["--indenter", "sphere 5 um", "--law", "elastic", "--poisson-ratio", "0.5"]
+    assert main(["fit", "gel.h5", *options, "-o", "gel.png", "-j", "1"]) == 0
+    printed = capsys.readouterr()
+    assert "5 of 6 curves" in printed.out
+    assert "gel.h5#2: " in printed.err
+    with Path("fits.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["curve"]: row for row in csv.DictReader(file)}
+    for number, modulus in enumerate(MODULI.T.ravel()):
+        row = rows[f"gel.h5#{number}"]
+        assert float(row["x [m]"]) == close_to((4 + number % 3) * 1e-6)
+        assert float(row["y [m]"]) == close_to((4.5 + number // 3) * 1e-6)
+        if number != 2:
+            assert float(row["youngs_modulus [Pa]"]) == close_to(modulus, rel=0.01)
+    assert Path("gel.png").stat().st_size > 10_000
+    assert main(["fit", "gel.h5", "--law", "elastic"]) == 2
+    assert "gel.h5 has several curves: give --indenter" in capsys.readouterr().err
+
+
+def test_curves_without_a_place_are_fitted_without_maps(tmp_path):
+    gel_map(tmp_path / "gel.h5", MODULI[:2], -1)
+    gel = vc.read_force_map(tmp_path / "gel.h5")
+    assert not gel.places
+
+
+def test_a_curve_of_a_map_that_lacks_a_column_is_named_and_the_others_are_read(tmp_path):
+    written(tmp_path / "map.h5", curves=3)
+    with h5py.File(tmp_path / "map.h5", "a") as file:
+        del file["1"]["height (piezo)"]
+    gel = vc.read_force_map(tmp_path / "map.h5")
+    assert list(gel.curves) == ["map.h5#0", "map.h5#2"]
+    assert gel.failures == {"map.h5#1": "map.h5: states no position; there are force, time"}
 
 
 def test_a_table_is_a_force_curve_with_a_spring_constant(tmp_path):

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +37,7 @@ MADE_BY_THE_PACKAGE = (
 UNITS = {
     **dict.fromkeys(("x", "y", "r", "drop", "depths", "spacing", "cell", "size", "contact"), "m"),
     **dict.fromkeys(("heights", "position", "deflection", "approach", "profile"), "m"),
-    **dict.fromkeys(("distance", "depth"), "m"),
+    **dict.fromkeys(("distance", "depth", "places"), "m"),
     **dict.fromkeys(("force", "forces"), "N"),
     **dict.fromkeys(("compliance", "amplitudes"), "1/Pa"),
     **dict.fromkeys(("modulus", "moduli", "storage", "loss", "pressure"), "Pa"),
@@ -130,6 +130,13 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
     "creep_curve": ({"law": RUBBER.law, "times": [1.0, 2.0]},),
     "draw_indenter": ({"indenter": BALL, "size": (1e-3, 2e-3), "contact": (0.0, 0.0, 1e-4, 2e-4)},),
     "fit_creep": ({**CREEP, "data": "shear"}, {**CREEP, **HEATED}),
+    "fit_each": (
+        {
+            "fit": partial(vc.fit_indentation, law="elastic", poisson_ratio=0.5),
+            "curves": {"a": vc.IndentationRecord(BALL, *(3 * [np.array(ROWS) / 1e6]))},
+            "places": {"a": [1e-6, 2e-6]},
+        },
+    ),
     "fit_dynamic": (
         {
             **{"angular_frequency": [1.0, 2.0, 4.0], "data": "shear"},
@@ -307,8 +314,8 @@ class Argument:
 
     def with_value(self, value: Any) -> Any:
         """Call with another value of this argument."""
-        if isinstance(self.given[self.name], dict):  # columns by name
-            value = dict.fromkeys(self.given["measured"], value)
+        if isinstance(self.given[self.name], dict):  # columns or places by name
+            value = dict.fromkeys(self.given[self.name], value)
         given = {**self.given, self.name: value}
         for name, each in given.items():
             if callable(each) and each in LATER:

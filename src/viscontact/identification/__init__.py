@@ -11,6 +11,7 @@ from viscontact.identification.curve_batch import CurveFits, fit_each
 from viscontact.identification.fitted_contact import FittedContact
 from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.identification.force_curve import ForceCurve
+from viscontact.identification.force_map import ForceMap, count_force_curves, read_force_map
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.instrument_curves import read_force_curve
@@ -34,6 +35,7 @@ __all__ = [
     "FittedContact",
     "FittedCurve",
     "ForceCurve",
+    "ForceMap",
     "FoundShift",
     "IndentationFit",
     "IndentationRecord",
@@ -45,6 +47,7 @@ __all__ = [
     "ShiftUncertainty",
     "adhesive_sections",
     "build_master_curve",
+    "count_force_curves",
     "find_contact",
     "fit_adhesion",
     "fit_arrhenius",
@@ -57,4 +60,5 @@ __all__ = [
     "fit_wlf",
     "material_section",
     "read_force_curve",
+    "read_force_map",
 ]

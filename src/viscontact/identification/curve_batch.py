@@ -18,6 +18,7 @@ from viscontact.backend.errors import AccuracyWarning
 from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.units.display import Displayable, Plotted
 from viscontact.units.formatting import column_heading, format_quantity
+from viscontact.units.numbers import real_array
 
 CurveT = TypeVar("CurveT")
 
@@ -44,7 +45,8 @@ class CurveFits(Displayable, Plotted):
     curves : tuple of FittedCurve
         Each curve in the order in which it was given: ``name``, ``values`` and ``intervals`` of the
         parameters [SI], ``units``, ``residual``, ``indentation`` [m], ``force`` [N],
-        ``warning``, and ``failure``, which is empty for a curve that was fitted.
+        ``warning``, ``failure``, which is empty for a curve that was fitted, and ``place`` in a
+        map.
 
     Examples
     --------
@@ -102,6 +104,11 @@ class CurveFits(Displayable, Plotted):
         """
         return np.array([each.values.get(parameter, math.nan) for each in self.fitted])
 
+    @property
+    def has_places(self) -> bool:
+        """Whether the places of fitted curves are known."""
+        return any(each.place is not None for each in self.fitted)
+
     def write(self, path: str | Path) -> None:
         """Write a table as CSV: a row for each curve, in SI units, with intervals.
 
@@ -116,12 +123,16 @@ class CurveFits(Displayable, Plotted):
 
     def _rows(self) -> Iterator[list[object]]:
         heads: list[object] = ["curve"]
+        if self.has_places:
+            heads += ["x [m]", "y [m]"]
         columns = {name: self._columns(name) for name in self.parameters}
         for name, ends in columns.items():
             heads += [column_heading(f"{name}{end}", self.unit_of(name)) for end in ends]
         yield [*heads, "residual", "indentation [m]", "force [N]", "warning", "failure"]
         for each in self.curves:
             numbers: list[float] = []
+            if self.has_places:
+                numbers += each.place or (math.nan, math.nan)
             for name, ends in columns.items():
                 stated = each.values.get(name, math.nan), *each.intervals.get(name, _UNKNOWN)
                 numbers += stated[: len(ends)]
@@ -159,6 +170,7 @@ def fit_each(
     *,
     executor: Executor | None = None,
     progress: Callable[[int, int], None] | None = None,
+    places: Mapping[str, tuple[float, float]] | None = None,
 ) -> CurveFits:
     """Fit each of many curves; one that cannot be fitted is kept with the reason.
 
@@ -173,6 +185,8 @@ def fit_each(
         Computes the fits, in place of this thread.
     progress : callable, optional
         Called after each curve with the number of finished ones and that of all.
+    places : mapping of str to (float, float), optional
+        Places x and y [m] of curves in a map, by name; the figure then has maps of the parameters.
 
     Returns
     -------
@@ -182,7 +196,7 @@ def fit_each(
     Raises
     ------
     ValueError
-        If there are no curves.
+        If there are no curves, or a place is no pair of numbers.
 
     Examples
     --------
@@ -204,15 +218,25 @@ def fit_each(
         )
     if not curves:
         raise ValueError("fit_each: needs at least one curve")
+    known = {name: _place(place) for name, place in (places or {}).items()}
     pending: list[Future[FittedCurve]] = []
     if executor is not None:
         pending = [executor.submit(_fitted, fit, name, each) for name, each in curves.items()]
     found = []
     for number, (name, curve) in enumerate(curves.items()):
-        found.append(pending[number].result() if pending else _fitted(fit, name, curve))
+        fitted = pending[number].result() if pending else _fitted(fit, name, curve)
+        found.append(replace(fitted, place=known.get(name)))
         if progress is not None:
             progress(len(found), len(curves))
     return CurveFits(tuple(found))
+
+
+def _place(given: object) -> tuple[float, float]:
+    """Place of a curve [m], checked."""
+    place = real_array("fit_each: places", given, "m", 1)
+    if place.size != 2:
+        raise ValueError(f"fit_each: places must be pairs of x and y, got {place.size} numbers")
+    return float(place[0]), float(place[1])
 
 
 def _fitted(fit: Callable[[CurveT], CurveFit], name: str, curve: CurveT) -> FittedCurve:

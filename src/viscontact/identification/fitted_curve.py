@@ -23,3 +23,4 @@ class FittedCurve:
     force: float = math.nan  # largest force [N]
     warning: str = ""
     failure: str = ""
+    place: tuple[float, float] | None = None  # x and y in a map [m]

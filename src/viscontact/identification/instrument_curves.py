@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import logging
 import re
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.packed_files import read_packed
 from viscontact.backend.record import Record
 from viscontact.identification.force_curve import ForceCurve, tabulated_curve
+from viscontact.identification.instrument_reader import load_library, read_curve
 from viscontact.tables import read_table
 
 #: Suffixes of the files that afmformats reads, without those of tables.
@@ -29,8 +25,6 @@ TABLES = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xls", ".ods")
 _EXPORTED, _METADATA, _FIRST_BYTES = ".tab", b"BEGIN METADATA", 10_000
 
 _NUMBERED = re.compile(r"(?P<file>.+)#(?P<number>\d+)")
-# The position that a sensor has measured comes before the one that was set at the piezo.
-_POSITIONS = ("height (measured)", "height (piezo)")
 
 
 def split_number(path: Path) -> tuple[Path, int | None]:
@@ -103,13 +97,25 @@ def read_force_curve(
         if spring_constant is None:
             raise ValueError(f"{file.name}: a table needs spring_constant=, in N/m")
         return tabulated_curve(read_table(file), spring_constant)
-    found = read_packed(
-        *(file, _read, chosen, spring_constant),
-        prepare=_load_library,
+    found = read_apart(file, read_curve, chosen, spring_constant)
+    return recorded_curve(file, found.values["spring constant"], found.arrays, spring_constant)
+
+
+def read_apart(file: Path, read: Callable[..., Record], *arguments: Any) -> Record:
+    """Return what is read from a file by afmformats, in another process."""
+    if not file.is_file():
+        raise FileNotFoundError(f"{file}: there is no such file")
+    return read_packed(
+        *(file, read, *arguments),
+        prepare=load_library,
         remedy="save single curves, or export time, position and deflection as CSV",
     )
-    stated = found.values["spring constant"]
-    columns = found.arrays
+
+
+def recorded_curve(
+    file: Path, stated: float, columns: Mapping[str, Floats], spring_constant: float | None
+) -> ForceCurve:
+    """Return the curve of columns that were recorded with a stated spring constant [N/m]."""
     try:
         return ForceCurve(
             columns["time"],
@@ -119,101 +125,3 @@ def read_force_curve(
         )
     except ValueError as error:
         raise ValueError(f"{file.name}: {error}") from error
-
-
-def _load_library() -> None:
-    """Import afmformats, which takes half a second, and which few files need."""
-    with suppress(ImportError):
-        import afmformats  # noqa: F401
-
-
-def _read(file: Path, number: int | None, spring_constant: float | None) -> Record:
-    """Time, position and force of a curve, and the spring constant with which it was recorded."""
-    name = file.name
-    curve = _choose_curve(name, _load_curves(file, spring_constant), number)
-    columns = {column: _column(name, curve, column) for column in ("time", "force")}
-    position = next((each for each in _POSITIONS if each in curve.columns), None)
-    if position is None:
-        raise ValueError(f"{name}: states no position; there are {', '.join(curve.columns)}")
-    stated = curve.metadata.get("spring constant", np.nan)
-    if not stated > 0:
-        if spring_constant is None:
-            raise ValueError(
-                f"{name}: states no spring constant; give it (--spring-constant, spring_constant=)"
-            )
-        stated = spring_constant
-    columns["position"] = _column(name, curve, position)
-    return Record({"spring constant": float(stated)}, columns)
-
-
-def _load_curves(file: Path, spring_constant: float | None) -> list[Any]:
-    """Curves of a file in the order of their numbers, as afmformats gives them."""
-    try:
-        import afmformats
-        from afmformats.errors import MissingMetaDataError
-    except ImportError as error:
-        raise ValueError(
-            f"{file.name}: reading force curves of instruments needs afmformats; type: "
-            "pip install 'viscontact[afm]', or export time, position and deflection as CSV"
-        ) from error
-    with _refused_by_name(file.name):
-        try:
-            curves = afmformats.load_data(file)
-        except MissingMetaDataError as error:
-            if spring_constant is None or set(error.meta_keys) != {"spring constant"}:
-                raise
-            curves = afmformats.load_data(file, {"spring constant": spring_constant})
-        # HDF5 sorts its curves as 0, 1, 10, 11, ..., 2.
-        return sorted(curves, key=lambda curve: int(curve.enum))
-
-
-@contextmanager
-def _refused_by_name(name: str) -> Iterator[None]:
-    """Raise ValueError for whatever afmformats raises at a file, which it would print as well."""
-    from afmformats.errors import AFMFileFormatError, MissingMetaDataError
-
-    log = logging.getLogger("afmformats")
-    level = log.level
-    log.setLevel(logging.CRITICAL + 1)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about details of the formats
-            yield
-    except MissingMetaDataError as error:
-        keys = ", ".join(error.meta_keys)
-        remedy = "give it (--spring-constant, spring_constant=)"
-        if keys != "spring constant":
-            remedy = "calibrate and save it again"
-        raise ValueError(f"{name}: does not state: {keys}; {remedy}") from error
-    # Errors of afmformats are no Exceptions, and a broken file may raise anything else, such as
-    # "list index out of range".
-    except (Exception, AFMFileFormatError) as error:
-        raise ValueError(
-            f"{name}: cannot be read as force curves; the file is damaged, or of another format: "
-            "save it again, or export time, position and deflection as CSV"
-        ) from error
-    finally:
-        log.setLevel(level)
-
-
-def _choose_curve(name: str, curves: list[Any], number: int | None) -> Any:
-    if not curves:
-        raise ValueError(f"{name}: has no force curve")
-    if number is None and len(curves) > 1:
-        raise ValueError(
-            f"{name}: has {len(curves)} curves; name one by its number, {name}#0 to "
-            f"{name}#{len(curves) - 1}"
-        )
-    if not 0 <= (number or 0) < len(curves):
-        raise ValueError(f"{name}: has no curve {number}; the last one is {len(curves) - 1}")
-    return curves[number or 0]
-
-
-def _column(name: str, curve: Any, column: str) -> Floats:
-    if column not in curve.columns:
-        raise ValueError(
-            f"{name}: states no {column}; there are {', '.join(curve.columns)}; export time, "
-            "position and deflection as CSV"
-        )
-    with _refused_by_name(name):
-        return np.asarray(curve[column], dtype=np.float64)

@@ -69,6 +69,7 @@ class IndentationRecord(Displayable):
 
     Examples
     --------
+    >>> from viscontact.bodies.indenters import FlatPunch
     >>> times = np.linspace(0.0, 1.0, 6)
     >>> record = IndentationRecord(FlatPunch(1e-3), times, 1e-6 * times, 2.0 * times)
     >>> float(record.force[-1])

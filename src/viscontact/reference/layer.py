@@ -193,7 +193,7 @@ def layer_cone(
 
     >>> cone = layer_cone(1.0, math.pi / 4, 1e3, shear_modulus=0.25, poisson_ratio=0.5)
     >>> print(f"{cone.force:.3f}, {math.pi / 2:.3f}")
-    1.573, 1.571
+    1.571, 1.571
     """
     profile = ConeProfile(half_angle)
     require_positive("m", contact_radius=contact_radius)

@@ -17,8 +17,8 @@ Tables = Annotated[
         metavar="FILE.csv...",
         help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
         "quantities and units. Or a force curve of an instrument (.jpk-force, .h5). Several "
-        "indentations, or a directory of them, are fitted one by one, to a table; with --case all "
-        "together.",
+        "indentations, a directory of them, or a map are fitted one by one, to a table; with "
+        "--case all together.",
     ),
 ]
 Test = Annotated[
@@ -363,12 +363,13 @@ def fit(
     if case is not None:
         execute_case_fit(typed, page)
         return
-    from viscontact.cli.material.fit_batch import curve_files, report_fits
+    from viscontact.cli.material.fit_batch import curve_files, holds_several, report_fits
 
     curves = curve_files(files)
-    refuse_without_case(typed, len(curves))
+    several = holds_several(curves)
+    refuse_without_case(typed, curves, several=several)
     arguments = FitArguments.of(typed)
-    if len(curves) > 1:
+    if several:
         report_fits(curves, arguments, output, table, width=page, jobs=jobs, quiet=quiet)
         return
     report_fit(curves[0], arguments, output, section, width=page)

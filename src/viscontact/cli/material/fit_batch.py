@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from viscontact.bodies.indenters import Indenter
 from viscontact.cli.material import fit_kinds
 from viscontact.cli.material.fit_options import FitArguments
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit
@@ -13,10 +15,14 @@ from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.identification import (
     AdhesionFit,
+    FittedCurve,
+    ForceCurve,
     IndentationFit,
     IndentationRecord,
+    count_force_curves,
     find_contact,
     read_force_curve,
+    read_force_map,
 )
 from viscontact.identification.curve_batch import CurveFits, fit_each
 from viscontact.identification.instrument_curves import is_instrument_file, split_number
@@ -54,6 +60,44 @@ def _is_curve(path: Path) -> bool:
     return path.is_file() and (path.suffix.lower() == ".csv" or is_instrument_file(path))
 
 
+def holds_several(files: Sequence[Path]) -> bool:
+    """Whether files have several curves; False for a file that cannot be read."""
+    if len(files) > 1:
+        return True
+    try:
+        return is_instrument_file(files[0]) and count_force_curves(files[0]) > 1
+    except (ValueError, OSError):
+        return False
+
+
+@dataclass(frozen=True)
+class _Curves:
+    """Curves by name, as files or as they were read from a map, and what is known of them."""
+
+    sources: dict[str, Path | ForceCurve]
+    places: dict[str, tuple[float, float]]
+    failed: tuple[FittedCurve, ...]
+
+    @classmethod
+    def of(cls, files: Sequence[Path], arguments: FitArguments) -> _Curves:
+        """Curves of files, each of a map by its own name."""
+        sources: dict[str, Path | ForceCurve] = {}
+        places: dict[str, tuple[float, float]] = {}
+        failed: list[FittedCurve] = []
+        for name, file in zip(_names(files), files, strict=True):
+            if not holds_several([file]):
+                sources[name] = file
+                continue
+            fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
+            found = read_force_map(file, spring_constant=arguments.stiffness())
+            sources |= found.curves
+            places |= found.places
+            failed += [
+                FittedCurve(curve, {}, {}, {}, failure=why) for curve, why in found.failures.items()
+            ]
+        return cls(sources, places, tuple(failed))
+
+
 def report_fits(
     files: Sequence[Path],
     arguments: FitArguments,
@@ -65,19 +109,28 @@ def report_fits(
     quiet: bool = False,
 ) -> None:
     """Fit each of many curves; print a summary, and write a table and a figure."""
-    names = _names(files)
-    curves = dict(zip(names, files, strict=True))
-    workers = jobs if len(files) >= _WORTH_PROCESSES else 1
+    try:
+        curves = _Curves.of(files, arguments)
+    except (ValueError, OSError) as error:
+        refuse(str(error))
+    total = len(curves.sources)
+    workers = jobs if total >= _WORTH_PROCESSES else 1
     lines = "{done} of {total} curves, about {left:.0f} s left"
     with (
-        chosen_workers(workers, most=len(files)) as chosen,
+        chosen_workers(workers, most=total) as chosen,
         counted("curves", quiet=quiet, line=lines) as progress,
     ):
         fit = partial(fitted_curve, arguments)
-        found = fit_each(fit, curves, executor=chosen.executor, progress=progress)
+        fits = fit_each(
+            *(fit, curves.sources),
+            executor=chosen.executor,
+            progress=progress,
+            places=curves.places,
+        )
+    found = CurveFits((*fits.curves, *curves.failed))
     _print_failures(found)
     if not found.fitted:
-        refuse(f"none of {len(files)} curves could be fitted")
+        refuse(f"none of {len(found.curves)} curves could be fitted")
     put(repr(found))
     path = table or TABLE
     try:
@@ -89,8 +142,13 @@ def report_fits(
         draw_fit(DeferredFigure("curve_fits", found), output, width)
 
 
-def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit | AdhesionFit:
-    """Fit of the curve or record in a file; ValueError or OSError where there is none."""
+def fitted_curve(
+    arguments: FitArguments, source: Path | ForceCurve
+) -> IndentationFit | AdhesionFit:
+    """Fit of a curve, or of the curve or record in a file; ValueError or OSError without one."""
+    if isinstance(source, ForceCurve):
+        return _fit_of(source, arguments.indenter_of("the map"), arguments)
+    file = source
     if is_instrument_file(split_number(file)[0]):
         fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
         indenter = arguments.indenter_of(file.name)
@@ -111,6 +169,13 @@ def fitted_curve(arguments: FitArguments, file: Path) -> IndentationFit | Adhesi
         kind = fit_kinds.VOLTAGE_CURVE if "signal" in table else fit_kinds.FORCE_CURVE
         kind.refuse_idle(file.name, arguments.given, table.contents)
         curve = arguments.force_curve(table)
+    return _fit_of(curve, indenter, arguments)
+
+
+def _fit_of(
+    curve: ForceCurve, indenter: Indenter, arguments: FitArguments
+) -> IndentationFit | AdhesionFit:
+    """Fit of adhesion, or of a law, to a force curve."""
     if arguments.adhesion:
         return arguments.adhering(curve, indenter)
     options = {} if arguments.reach is None else {"reach": arguments.reach}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,21 +48,22 @@ def execute_case_fit(typed: Mapping[str, Any], width: str | float | None) -> Non
         write_report(found, typed["report"])
 
 
-def refuse_without_case(typed: Mapping[str, Any], curves: int) -> None:
-    """Refuse options of ``--case`` without it, and those that do not go with a number of curves."""
+def refuse_without_case(typed: Mapping[str, Any], files: Sequence[Path], *, several: bool) -> None:
+    """Refuse options of ``--case`` without it, and those that do not go with several curves."""
     given = [name for name in _OF_RUNS if typed[name] is not None and typed[name] is not False]
-    if curves > 1:
+    if several:
         given = [name for name in given if name != "jobs"]
     if idle := ["--set" if name == "settings" else switch(name) for name in given]:
         refuse(f"{', '.join(idle)}: needs --case CASE.yaml, the case of the experiment")
-    if curves > 1 and typed["indenter"] is None:
+    if several and typed["indenter"] is None:
+        found = f"{len(files)} tables" if len(files) > 1 else f"{files[0].name} has several curves"
         refuse(
-            f"{curves} tables: give --indenter, such as 'sphere 5 um', to fit each as an "
+            f"{found}: give --indenter, such as 'sphere 5 um', to fit each as an "
             "indentation, or --case CASE.yaml, the case of the experiment, to fit them together"
         )
-    if curves > 1 and typed["section"] is not None:
+    if several and typed["section"] is not None:
         refuse("--yaml: goes with one table; several curves give a table (--table)")
-    if curves == 1 and typed["table"] is not None:
+    if not several and typed["table"] is not None:
         refuse("--table: goes with several curves; one gives a section of a case (--yaml)")
 
 

@@ -1,4 +1,4 @@
-"""Distribution of what many curves gave."""
+"""Distribution of what many curves gave, and where."""
 
 from __future__ import annotations
 
@@ -6,7 +6,11 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from scipy.spatial import cKDTree
 
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.matplotlib.layout import style
@@ -36,6 +40,7 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
     matplotlib.figure.Figure
         A panel for each parameter that a curve determines, over a logarithmic axis where the values
         differ by more than a factor of ten; a line marks the median, a band half of the curves.
+        Curves whose places are known have a map of each parameter beside it.
 
     Raises
     ------
@@ -55,17 +60,63 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
     names = [each for each in fits.parameters if np.isfinite(fits.values_of(each)).any()]
     if not names:
         raise ValueError("curve_fits: no curve has a fit")
-    across = min(len(names), 2)
-    rows = -(-len(names) // across)
+    count = len(names) * (2 if fits.has_places else 1)
+    across = min(count, 2)
+    rows = -(-count // across)
     wide = page_width(width, style.TWO_COLUMNS if across > 1 else style.ONE_COLUMN)
     figure = style.new_figure(wide, 2.4 * rows)
-    panels = list(figure.subplots(rows, across, squeeze=False).flat)
-    for axes, name in zip(panels, names, strict=False):
-        values = fits.values_of(name)
-        _histogram(axes, name, fits.unit_of(name), values)
-    for unused in panels[len(names) :]:
+    panels = iter(figure.subplots(rows, across, squeeze=False).flat)
+    for name in names:
+        values, unit = fits.values_of(name), fits.unit_of(name)
+        _histogram(next(panels), name, unit, values)
+        if fits.has_places:
+            _map(next(panels), fits, name)
+    for unused in panels:
         unused.remove()
     return figure
+
+
+def _map(axes: Axes, fits: CurveFits, name: str) -> None:
+    """Map of a parameter, a square for each place; crosses where it is not known."""
+    placed = [each for each in fits.curves if each.place is not None]
+    places = np.array([each.place for each in placed])
+    values = np.array([each.values.get(name, math.nan) for each in placed])
+    known = np.isfinite(values)
+    length = readable_unit("m", np.ptp(places, axis=0).max())
+    unit = readable_unit(fits.unit_of(name), np.median(values[known]))
+    low, high = np.percentile(values[known], (100 * _OUTLIERS, 100 - 100 * _OUTLIERS)).tolist()
+    scale = LogNorm if low > 0 and high > _WIDE * low else Normalize
+    half = _spacing(places) / 2
+    corners = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    squares = PolyCollection(
+        [length(place + corners) for place in places[known]],
+        array=unit(values[known]),
+        cmap="viridis",
+        norm=scale(*unit([low, high]).tolist()),
+        edgecolors="face",
+        linewidths=0.2,
+    )
+    style.dress(axes)
+    axes.add_collection(squares)
+    axes.plot(*length(places[~known]).T, "x", color=style.FAINT, ms=4, mew=0.8)
+    x, y = (length([each.min() - half, each.max() + half]).tolist() for each in places.T)
+    axes.set(aspect="equal", xlim=x, ylim=y, xlabel=length.label("x"), ylabel=length.label("y"))
+    beyond = "both" if values[known].size > 2 / _OUTLIERS else "neither"
+    bar = style.figure_of(axes).colorbar(squares, ax=axes, aspect=25, extend=beyond)
+    style.dress_colour_bar(bar, unit.label(_label(name)))
+
+
+def _spacing(places: Floats) -> float:
+    """Usual distance from a place to the nearest other one [m]."""
+    nearest = cKDTree(places).query(places, 2)[0][:, 1]
+    apart = nearest[np.isfinite(nearest) & (nearest > 0)]
+    return float(np.median(apart)) if apart.size else 1e-6
+
+
+def _label(name: str) -> str:
+    """Name of a parameter as a label."""
+    label = name.replace("_", " ").replace("youngs", "Young's").replace("pull off", "pull-off")
+    return label[0].upper() + label[1:]
 
 
 def _histogram(axes: Axes, name: str, si: str, every: Floats) -> None:
@@ -92,9 +143,9 @@ def _histogram(axes: Axes, name: str, si: str, every: Floats) -> None:
     if is_wide:
         axes.set_xscale("log")
         plain_log_ticks(axes.xaxis)
-    label = name.replace("_", " ").replace("youngs", "Young's").replace("pull off", "pull-off")
-    axes.set_xlabel(unit.label(label[0].upper() + label[1:]))
+    axes.set_xlabel(unit.label(_label(name)))
     axes.set_ylabel("Curves")
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     known = f"{values.size} of " if values.size < every.size else ""
     text = f"median {format_quantity(middle, si, 3)}, {known}{every.size} curves"
     style.add_heading(axes, text)
