@@ -48,6 +48,18 @@ def test_runs_without_a_result_are_listed_with_their_message() -> None:
     assert "<script>alert" not in page
 
 
+def test_warnings_of_runs_that_differ_in_numbers_are_listed_once() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    deep = "the approach is {} of the thickness of the layers, 5 mm"
+    texts = ["", "\n".join([deep.format(0.12), f"a seam {MARKUP}"]), deep.format(0.3)]
+    ds["warnings"] = "load.force", texts
+    page = sweep_page(ds, title="deep")
+    assert f"2 runs warn, as run 1: {deep.format(0.12)}" in page
+    assert "run 1: a seam" in page
+    assert deep.format(0.3) not in page
+    assert "<script>alert" not in page
+
+
 def test_page_without_any_result_has_no_figure() -> None:
     ds = hertz_sweep(load__force=FORCES)[["state", "message"]]
     ds["state"][:] = "fail"

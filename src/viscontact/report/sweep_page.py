@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,6 +28,8 @@ from viscontact.results.variables import variable_of
 from viscontact.results.verdicts import limits_of, stated_limits
 from viscontact.units.formatting import format_compact, readable_unit
 
+#: Number with its prefix and unit, as warnings state it.
+_NUMBER = re.compile(r"[-+]?\d[\d.,e+-]*\s?(?:[^\W\d_]{1,4}\b)?")
 #: Most rows of the table, and most runs with a message.
 MOST_ROWS, MOST_REASONS = 1000, 10
 
@@ -57,7 +60,7 @@ def sweep_content(ds: xr.Dataset, title: str, *, interactive: bool) -> StudyPage
     return StudyPage(
         # The title of the case with that of the sweep, or the latter alone.
         title=heading_of(ds, title) if ds.attrs.get("title") else title,
-        head=[_states(ds), _reasons(ds), _changes(ds)],
+        head=[_states(ds), _reasons(ds), _changes(ds), _warnings(ds)],
         chapters={**chapters, "Runs": [*_limits(ds), *_table(ds)]},
         title_block=list(title_lines(ds, "First run started")),
         files=list(file_lines(ds)),
@@ -135,6 +138,24 @@ def _changes(ds: xr.Dataset) -> Element | None:
     names, settings = (ds[name].values.ravel() for name in ("name", "changed"))
     numbers = np.flatnonzero(settings != "").tolist()
     return _list_of_first([f"{names[run]}: with its own {settings[run]}" for run in numbers])
+
+
+def _warnings(ds: xr.Dataset) -> Element | None:
+    """List of the warnings of the runs: those that differ in numbers alone as one."""
+    if "warnings" not in ds:
+        return None
+    alike: dict[str, list[tuple[str, str]]] = {}
+    names = ds["name"].values.ravel()
+    for name, texts in zip(names, ds["warnings"].values.ravel(), strict=True):
+        for text in str(texts).splitlines():
+            alike.setdefault(_NUMBER.sub("#", text), []).append((str(name), text))
+    return _list_of_first([_stated(each) for each in alike.values()])
+
+
+def _stated(warnings: list[tuple[str, str]]) -> str:
+    """Sentence for warnings of runs that differ in numbers alone: the first one."""
+    count, (name, text) = len({name for name, _ in warnings}), warnings[0]
+    return f"{name}: {text}" if count == 1 else f"{count} runs warn, as {name}: {text}"
 
 
 def _list_of_first(lines: list[str]) -> Element | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import shutil
 from pathlib import Path
@@ -13,6 +14,7 @@ import xarray as xr
 import viscontact as vc
 from returned import some
 from swept_runs import sweep_of
+from viscontact.cli import main
 from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, STATE_NAME
 from viscontact.results.variables import ERRORS, SCALARS, scalars_of
 from viscontact.runs.directory.lock import locked
@@ -311,3 +313,20 @@ def test_coordinates_are_numbers_in_si_or_text(
 def test_difference_of_temperatures_has_no_offset() -> None:
     rows = rows_of("zip", {"material.shift.c2": "51.6 degC"}, {"material.shift.c2": "40 K"})
     assert sweep_axes(rows).coords["material.shift.c2"].values.tolist() == [51.6, 40.0]
+
+
+def test_warnings_of_each_run_are_in_the_dataset_and_in_the_table(tmp_path: Path) -> None:
+    sweep = sweep_of(tmp_path, [{"material.measured_until": end} for end in ("9 s", "1 s")])
+    ds = vc.open_many(sweep)
+    none, warned = ds["warnings"].values.tolist()
+    assert "extrapolation" not in none
+    with vc.open_results(places(sweep)[1]) as run:
+        assert warned == run.attrs["warnings"]
+    assert "extrapolation" in warned
+    for place in places(sweep):
+        (place / PROGRESS_NAME).unlink()
+    assert vc.open_many(sweep)["warnings"].values.tolist() == [none, warned]
+    assert main(["collect", str(sweep), "-o", str(tmp_path / "sweep.csv")]) == 0
+    with (tmp_path / "sweep.csv").open(encoding="utf-8", newline="") as file:
+        cells = [row["warnings"] for row in csv.DictReader(file)]
+    assert cells == [" | ".join(each.splitlines()) for each in (none, warned)]

@@ -89,9 +89,9 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self,
         errors: Mapping[str, Floats] | None = None,
         fields: Mapping[str, Any] | None = None,
-        judged: Mapping[str, str] | None = None,
+        ended: Mapping[str, Any] | None = None,
     ) -> None:
-        """Add errors of scalars to all lines; to the last one `fields` and verdicts, `judged`."""
+        """Add errors of scalars to all lines; to the last one `fields` and `ended`."""
         # The file is replaced at once and durably; one that a program holds on Windows is
         # unchanged.
         self.flush_to_disk()
@@ -103,7 +103,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
                     entries = read | _errors(errors or {}, row)
                     if row == self.count - 1:
                         entries |= {"complete": True, "fields": fields and dict(fields)}
-                        entries |= judged or {}
+                        entries |= ended or {}
                     file.write(_encode({**entries, ROW: row}))
             flush_to_disk(fresh)
             self._check()

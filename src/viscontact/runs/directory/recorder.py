@@ -159,7 +159,9 @@ class Recorder:
             if self._lines is not None:
                 # Before the state is removed: a line lost in a power cut could not be repeated.
                 errors = None if bars is None else bars.values
-                self._lines.finish(errors, self._writer.described_fields(), judged)
+                warned = [*self._writer.warnings, *(() if bars is None else bars.warnings)]
+                ended = {"all_warnings": warned, **judged}
+                self._lines.finish(errors, self._writer.described_fields(), ended)
             self._writer.finish(bars, attributes)
             self.shown = self._reached_place
             self.close()

@@ -72,6 +72,11 @@ class JointLayout:
         return any(each.verdict for each in self.states)
 
     @property
+    def has_warnings(self) -> bool:
+        """True if any finished run has warnings."""
+        return any(each.warnings for each in self.states)
+
+    @property
     def scalar_dims(self) -> tuple[str, ...]:
         """Dimensions of a scalar."""
         return (*self.axes.dims, self.row_dim)
@@ -122,6 +127,9 @@ class JointLayout:
             about["verdict"] = (worst, "worst verdict on the allowable values")
             names = [each.decided_by for each in self.states]
             about["decided_by"] = (names, "quantities with this verdict; empty if all have passed")
+        if self.has_warnings:
+            warned = ["\n".join(each.warnings) for each in self.states]
+            about["warnings"] = (warned, "warnings of the run, one a line")
         texts = {
             name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
             for name, (values, title) in about.items()
@@ -215,8 +223,13 @@ def _state_and_outline(directory: Path) -> tuple[RunState, RunOutline | None]:
         return state, None
     try:
         outline = run_outline(directory)
-        judged = replace(state, verdict=outline.verdict, decided_by=outline.decided_by)
-        return judged, outline
+        ended = replace(
+            state,
+            verdict=outline.verdict,
+            decided_by=outline.decided_by,
+            warnings=outline.warnings,
+        )
+        return ended, outline
     except (OSError, RuntimeError, ValueError, LookupError, TypeError) as error:
         return RunState(State.FAILED, f"its result cannot be read: {error}"), None
 

@@ -42,7 +42,8 @@ def open_many(directory: str | Path, *, tree: bool = False) -> xr.Dataset | xr.D
         instants on the same grid. If any run
         was computed with settings of its own, ``changed`` has them as text, empty for the others;
         ``verdict`` likewise has the worst verdict on the allowable values of each run, and
-        ``decided_by`` the quantities with this verdict, empty if all have passed.
+        ``decided_by`` the quantities with this verdict, empty if all have passed; and ``warnings``
+        those of each run, one a line.
 
     Raises
     ------

@@ -40,6 +40,7 @@ class RunOutline:
     verdict: str = ""  # the worst on the allowable values; empty without any
     decided_by: str = ""  # quantities with that verdict; empty if all have passed
     values: Mapping[str, float] = field(default_factory=dict)  # of the whole run, with errors
+    warnings: tuple[str, ...] = ()
 
 
 def run_outline(directory: Path) -> RunOutline:
@@ -53,12 +54,17 @@ def run_outline(directory: Path) -> RunOutline:
             columns = frozenset(set(COLUMNS) & set(end))
             verdict, decided_by = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
             values = _run_values(directory) if _ADHERES in columns else {}
-            return RunOutline(over, rows, columns, end.get("fields"), verdict, decided_by, values)
+            warned = tuple(map(str, end.get("all_warnings", ())))
+            fields = end.get("fields")
+            return RunOutline(over, rows, columns, fields, verdict, decided_by, values, warned)
     with StoredFile(directory / RESULT_NAME, noted=False) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
         columns, values = frozenset(_stored_columns(file)), _values_of(file)
-        return RunOutline(over, rows, columns, described_fields(file), values=values)
+        stated = "warnings" in file.ncattrs()
+        warned = tuple(str(file.getncattr("warnings")).splitlines()) if stated else ()
+        fields = described_fields(file)
+        return RunOutline(over, rows, columns, fields, values=values, warnings=warned)
 
 
 def run_scalars(directory: Path) -> Floats:

@@ -34,7 +34,8 @@ def write_run_table(layout: JointLayout, file: IO[str], progress: Progress) -> N
             ]
             changed = [layout.runs[run].own_settings] if layout.has_changed else []
             judged = [state.verdict, state.decided_by] if layout.has_verdicts else []
-            own = (*changed, *judged, state.message)
+            warned = [" | ".join(state.warnings)] if layout.has_warnings else []
+            own = (*changed, *judged, *warned, state.message)
             writer.writerow([*about, state.state.value, *scalars, *own])
         progress(runs.stop, len(layout.runs))
 
@@ -65,6 +66,8 @@ def _header(layout: JointLayout, names: list[str]) -> Iterator[str]:
         yield "changed"
     if layout.has_verdicts:
         yield from ("verdict", "decided_by")
+    if layout.has_warnings:
+        yield "warnings"
     yield "message"
 
 

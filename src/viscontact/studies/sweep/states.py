@@ -38,6 +38,7 @@ class RunState:
     message: str = ""
     verdict: str = ""  # the worst on the allowable values; empty without any
     decided_by: str = ""  # quantities with that verdict; empty if all have passed
+    warnings: tuple[str, ...] = ()  # of a finished run
 
 
 def run_state(directory: Path) -> RunState:
