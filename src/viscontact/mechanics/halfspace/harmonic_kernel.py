@@ -26,6 +26,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.influence import FAR
 from viscontact.mechanics.halfspace.layered_influence import (
     CELL_RULE,
+    ON_EDGE,
     table_reach,
     triangles,
 )
@@ -83,22 +84,24 @@ def coupling_kernel(response: LayeredShear, reach: float) -> SmoothKernel:
 def harmonic_coefficient(
     kernel: Callable[[float], SmoothKernel],
     harmonic: Harmonic,
-    shape: tuple[int, int],
+    x: Floats,
+    ny: int,
     cell_size: tuple[float, float],
     length: float,
 ) -> Floats:
-    """Integrals over cells at offsets of i, j >= 0 cells; `kernel` makes a table up to a reach."""
-    (nx, ny), (dx, dy) = shape, cell_size
-    x, y = (np.arange(n, dtype=np.float64) * edge for n, edge in ((nx, dx), (ny, dy)))
+    """Integrals over cells at offsets x >= 0 [m] and of j < ny cells along y, shape (nx, ny).
+
+    `kernel` makes a table up to a reach.
+    """
+    y = np.arange(ny, dtype=np.float64) * cell_size[1]
     table = kernel(table_reach(x, ny, cell_size, length))
-    found = np.empty(shape)
-    near_x, near_y = (
-        min(count, int(FAR * max(cell_size) / edge) + 1)
-        for count, edge in zip(shape, cell_size, strict=True)
-    )
-    found[near_x:] = _gauss(table, harmonic, x[near_x:], y, cell_size)
-    found[:near_x, near_y:] = _gauss(table, harmonic, x[:near_x], y[near_y:], cell_size)
-    found[:near_x, :near_y] = _by_corners(table, harmonic, (near_x, near_y), cell_size)
+    is_near = x <= FAR * max(cell_size)
+    near_y = min(ny, int(FAR * max(cell_size) / cell_size[1]) + 1)
+    found = np.empty((x.size, ny))
+    found[~is_near] = _gauss(table, harmonic, x[~is_near], y, cell_size)
+    found[is_near, near_y:] = _gauss(table, harmonic, x[is_near], y[near_y:], cell_size)
+    if is_near.any():
+        found[is_near, :near_y] = _by_corners(table, harmonic, x[is_near], near_y, cell_size)
     return found
 
 
@@ -118,16 +121,21 @@ def _gauss(
 def _by_corners(
     kernel: SmoothKernel,
     harmonic: Harmonic,
-    shape: tuple[int, int],
+    x: Floats,
+    ny: int,
     cell_size: tuple[float, float],
 ) -> Floats:
     """Double differences over the corners of cells of the integral from the origin."""
-    (nx, ny), (dx, dy) = shape, cell_size
-    edges_x, edges_y = np.arange(0.5, nx) * dx, np.arange(0.5, ny) * dy
-    corners = triangles(kernel, edges_x, edges_y, harmonic.along_x)
-    corners = corners + triangles(kernel, edges_y, edges_x, harmonic.along_y).T
-    # The integral from the origin to a corner at -1/2 cells: odd of an even kernel, and reversed.
-    for axis, odd in enumerate(harmonic.odd):
-        first = np.take(corners, [0], axis)
-        corners = np.diff(corners, axis=axis, prepend=first if odd else -first)
-    return corners
+    dx, dy = cell_size
+    edges = np.concatenate([x + dx / 2, x - dx / 2])
+    distances, places = np.unique(np.maximum(np.abs(edges), ON_EDGE * dx), return_inverse=True)
+    sides = np.arange(0.5, ny) * dy
+    corners = triangles(kernel, distances, sides, harmonic.along_x)
+    corners = corners + triangles(kernel, sides, distances, harmonic.along_y).T
+    # The integral from the origin to a corner is odd of an even kernel, and reversed.
+    odd_x, odd_y = harmonic.odd
+    signs = np.ones(edges.shape) if odd_x else np.sign(edges)
+    corners = signs[:, None] * corners[places]
+    over_x = corners[: x.size] - corners[x.size :]
+    first = over_x[:, :1]
+    return np.diff(over_x, axis=1, prepend=first if odd_y else -first)

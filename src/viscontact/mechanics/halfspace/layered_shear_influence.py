@@ -37,10 +37,10 @@ from viscontact.mechanics.halfspace.harmonic_kernel import (
 )
 from viscontact.mechanics.halfspace.layered_influence import (
     correction_coefficient,
-    periodic_layered_table,
+    periodic_layered_coefficient,
 )
 from viscontact.mechanics.halfspace.layered_shear import LayeredShear, ShearComponent
-from viscontact.mechanics.halfspace.shear_influence import PairTables, shear_tables
+from viscontact.mechanics.halfspace.shear_influence import PairTables, periodic_coefficients
 from viscontact.mechanics.halfspace.smooth_kernel import LOG_STEP, RAY
 from viscontact.mechanics.halfspace.strip_influence import (
     REACH,
@@ -53,12 +53,19 @@ def shear_correction(grid: Grid, response: LayeredShear) -> PairTables:
     """Coefficients beyond a half-space's, of a grid without a period or of a line contact."""
     if any(grid.periodic):
         return _strips(grid, response)
-    mean = ShearComponent(response, 0.5, 0.5)
     x = np.arange(grid.shape[0], dtype=np.float64) * grid.cell_size[0]
-    direct = correction_coefficient(x, grid.shape[1], grid.cell_size, mean)
+    return shear_correction_at(x, grid.shape[1], grid.cell_size, response)
+
+
+def shear_correction_at(
+    x: Floats, ny: int, cell_size: tuple[float, float], response: LayeredShear
+) -> PairTables:
+    """These coefficients at offsets x >= 0 [m] and of j < ny cells along y, without a period."""
+    mean = ShearComponent(response, 0.5, 0.5)
+    direct = correction_coefficient(x, ny, cell_size, mean)
     turned, cross = (
         harmonic_coefficient(
-            partial(split_kernel, response), turn, grid.shape, grid.cell_size, response.length
+            partial(split_kernel, response), turn, x, ny, cell_size, response.length
         )
         for turn in (COS_2, SIN_2)
     )
@@ -76,8 +83,12 @@ def layered_coupling(grid: Grid, response: LayeredShear) -> CouplingTables:
         pair = (np.zeros(grid.shape), found) if axis == 1 else (found, np.zeros(grid.shape))
         return CouplingTables(*(weight * a + b for a, b in zip(_both(own), pair, strict=True)))
     along_x, along_y = (
-        harmonic_coefficient(partial(coupling_kernel, response), COS_1, *cells, response.length)
-        for cells in (
+        harmonic_coefficient(
+            *(partial(coupling_kernel, response), COS_1),
+            *(np.arange(count, dtype=np.float64) * cell_size[0], across),
+            *(cell_size, response.length),
+        )
+        for (count, across), cell_size in (
             (grid.shape, grid.cell_size),
             (grid.shape[::-1], grid.cell_size[::-1]),
         )
@@ -98,21 +109,34 @@ def _strip_axis(grid: Grid) -> int:
 
 def _strips(grid: Grid, response: LayeredShear) -> PairTables:
     """Coefficients of strips, less those of a half-space of short waves."""
-    axis, own, short = _strip_axis(grid), shear_tables(grid), response.short_waves
-    width, count = grid.cell_size[axis], grid.shape[axis]
-    along, across = (
-        periodic_layered_table(
-            (1, count), (width, width), ShearComponent(response, *weights), grid.size[axis]
-        ).reshape(grid.shape)
-        for weights in ((1.0, 0.0), (0.0, 1.0))
-    )
+    axis = _strip_axis(grid)
+    width = grid.cell_size[axis]
+    y = np.arange(grid.shape[axis], dtype=np.float64) * width
+    along, across = strip_correction(y, width, response, grid.size[axis])
     pair = (along, across) if axis == 0 else (across, along)
-    poisson = short.across - short.along
-    along_x, along_y = (
-        whole - short.along * own.direct - poisson * part
-        for whole, part in zip(pair, (own.along_x, own.along_y), strict=True)
-    )
+    along_x, along_y = (each.reshape(grid.shape) for each in pair)
     return PairTables(along_x, np.zeros(grid.shape), along_y)
+
+
+def strip_correction(
+    y: Floats, width: float, response: LayeredShear, datum: float
+) -> tuple[Floats, Floats]:
+    """Coefficients at offsets y >= 0 [m] from a strip, of tractions across it and along it.
+
+    Less those of a half-space of short waves, both with a displacement of zero at the distance
+    `datum` [m] of a line load, but on a rigid base.
+    """
+    own, short = periodic_coefficients(1, y[None, :], (width, width), datum), response.short_waves
+    poisson = short.across - short.along
+    along, across = (
+        periodic_layered_coefficient(
+            *(1, y, (width, width), ShearComponent(response, *weights), datum)
+        )
+        - short.along * own.direct
+        - poisson * part
+        for weights, part in (((1.0, 0.0), own.along_y), ((0.0, 1.0), own.along_x))
+    )
+    return along[0], across[0]
 
 
 def coupling_of_strip(y: Floats, width: float, response: LayeredShear) -> Floats:

@@ -1,7 +1,8 @@
 """Surface under tractions that move at constant speed: displacement along the surface.
 
 As under a pressure (`moving_load`), each influence coefficient K of shear at rest becomes J0 K +
-Σ Ji Ei K. The part of 1/r and that by Poisson's ratio (`shear_influence`) have a compliance each.
+Σ Ji Ei K. The part of 1/r and that by Poisson's ratio (`shear_influence`) have a compliance each,
+and so has each response of layers, beyond its short waves, which are those of a half-space.
 """
 
 from __future__ import annotations
@@ -16,6 +17,11 @@ from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.influence import influence_coefficient
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
+from viscontact.mechanics.halfspace.layered_shear_influence import (
+    shear_correction_at,
+    strip_correction,
+)
 from viscontact.mechanics.halfspace.moving_load import (
     Coefficient,
     MovingCompliance,
@@ -29,6 +35,9 @@ from viscontact.mechanics.halfspace.shear_influence import (
     periodic_coefficients,
 )
 
+#: Wave numbers at which the response of layers is computed for a preconditioner.
+_WAVES = 200
+
 
 @dataclass(frozen=True, eq=False)
 class MovingShear:
@@ -36,6 +45,23 @@ class MovingShear:
 
     direct: MovingCompliance  # of the part of 1/r
     poisson: MovingCompliance  # of the part by κ: κ J at a constant Poisson's ratio
+    layers: tuple[tuple[LayeredShear, MovingCompliance], ...] = ()  # beyond short waves
+
+    def of_waves(self, x: Floats, y: Floats, axis: int) -> tuple[Complexes, Complexes]:
+        """Compliances of waves of tractions along and across their wave vector (x, y) [1/Pa].
+
+        Those of layers between some wave numbers are interpolated.
+        """
+        waves, length = (x, y)[axis], np.hypot(x, y)
+        along = self.direct.at_wave_number(waves)
+        across = along + self.poisson.at_wave_number(waves)
+        some = np.geomspace(length.min(), length.max(), _WAVES)
+        for response, moving in self.layers:
+            found, short = response.ratios(some), response.short_waves
+            own = moving.at_wave_number(waves)
+            along = along + np.interp(length, some, found.along - short.along) * own
+            across = across + np.interp(length, some, found.across - short.across) * own
+        return along, across
 
 
 def moving_shear_convolution(
@@ -52,10 +78,18 @@ def moving_shear_convolution(
         for each, count in enumerate(shape)
     )
 
+    datum = grid.size[axis] if repeats else None
+    of_layers = [
+        (_layered_coefficients(response, datum), moving) for response, moving in shear.layers
+    ]
+
     def spectrum(part: str, compliance: MovingCompliance, parity: int = 1) -> Complexes:
-        datum = grid.size[axis] if repeats else None
+        cells = shape, grid.cell_size
         coefficient = _coefficient(part, shape[across], datum)
-        table = moving_influence_table(shape, grid.cell_size, compliance, axis, coefficient, parity)
+        table = moving_influence_table(*cells, compliance, axis, coefficient, parity)
+        if part != "direct":
+            for own, moving in of_layers:
+                table += moving_influence_table(*cells, moving, axis, own[part], parity)
         if part == "direct" and not grid.has_datum:
             table -= _drift(shape, grid.cell_size, axis, compliance)
         return _signed_spectrum(table, (lengths[0], lengths[1]), axis, parity)
@@ -79,10 +113,10 @@ def moving_shear_preconditioner(
     """Approximate inverse of the displacement of a block, taken as a period [Pa/m]."""
     # A wave along l is displaced by 2 J/|k| along it, and by 2 (J + κ J) across it.
     x, y, length = wave_numbers(shape, cell_size)
-    waves = x if axis == 0 else y
     safe = np.where(length > 0, length, 1.0)
-    direct = shear.direct.at_wave_number(waves)
-    along, across = length / 2 / direct, length / 2 / (direct + shear.poisson.at_wave_number(waves))
+    least_wave = float(length[length > 0].min())
+    compliances = shear.of_waves(np.where(length > 0, x, least_wave), y, axis)
+    along, across = (length / 2 / each for each in compliances)
     least = min([*np.abs(along[0, 1:2]), *np.abs(along[1:2, 0])])
     share_x, share_y = (x / safe) ** 2, (y / safe) ** 2
     xx = along * share_x + across * share_y
@@ -127,6 +161,34 @@ def _coefficient(part: str, across_cells: int, datum: float | None) -> Coefficie
         return found * np.sign(places)[:, None] if part == "cross" else found
 
     return free if datum is None else with_images
+
+
+def _layered_coefficients(response: LayeredShear, datum: float | None) -> dict[str, Coefficient]:
+    """Coefficients of the parts of layers beyond short waves, as `_coefficient`.
+
+    With a datum [m] a line contact: the parts of one cell that repeats across the motion.
+    """
+    known: dict[tuple[bytes, int], dict[str, Floats]] = {}
+
+    def computed(along: Floats, across: Floats, cell: tuple[float, float]) -> dict[str, Floats]:
+        places = along[:, 0]
+        if datum is None:
+            tables = shear_correction_at(places, across.size, cell, response)
+            return {"along": tables.along_x, "across": tables.along_y, "cross": tables.cross}
+        pair = strip_correction(places, cell[0], response, datum)
+        own, other = (each[:, None] for each in pair)
+        return {"along": own, "across": other, "cross": np.zeros(own.shape)}
+
+    def coefficient(part: str) -> Coefficient:
+        def found(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
+            key = along.tobytes(), across.size  # all are asked for at the same places
+            if key not in known:
+                known[key] = computed(along, across, cell)
+            return known[key][part]
+
+        return found
+
+    return {part: coefficient(part) for part in ("along", "across", "cross")}
 
 
 #: Parts of tables whose x is across the motion.

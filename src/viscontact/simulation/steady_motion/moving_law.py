@@ -19,6 +19,7 @@ from viscontact.bodies.loads.clock import TIME
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
+from viscontact.mechanics.halfspace.layered_shear import LayeredShear
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, joined
 from viscontact.mechanics.halfspace.moving_shear import MovingShear
 from viscontact.mechanics.halfspace.moving_surface import MovingSurface
@@ -158,40 +159,57 @@ class ShearLaw:
     law: MovingLaw
     direct: float  # of the part of 1/r
     poisson: float  # of the part by κ
+    layers: LayeredShear | None = None  # whose short waves these are
 
 
 def shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[ShearLaw, ...]:
-    """Laws of the bodies under shear, as `moving_laws`; half-spaces only."""
+    """Laws of the bodies under shear, as `moving_laws`."""
     first, last = _times(problem, extents)
     found = []
     for place, body in enumerate(problem.contact.bodies):
         for term in shear_terms([body], [TIME]).terms:
-            of_pressure = SurfaceTerm(term.compliance, HALF_SPACE)
+            creep = term.compliance if flowing(body) else _without_flow(term.compliance)
+            of_pressure = SurfaceTerm(creep, HALF_SPACE)
             law = (
                 _law(of_pressure, *_series(of_pressure.compliance, first, last))
                 if place == 0
                 else _law_of_mate(problem, of_pressure, first, last)
             )
-            found.append(ShearLaw(law, term.direct, term.poisson))
+            found.append(ShearLaw(law, term.direct, term.poisson, term.layers))
     return tuple(found)
 
 
 def moving_shear(laws: Sequence[ShearLaw], speed: float, extent: float) -> MovingShear:
     """Response to shear at a speed [m/s], for contacts that are small against an extent [m]."""
     moving = [law.law.at(speed, extent) for law in laws]
+    pairs = list(zip(laws, moving, strict=True))
     return MovingShear(
-        joined([each.scaled(law.direct) for law, each in zip(laws, moving, strict=True)]),
-        joined([each.scaled(law.poisson) for law, each in zip(laws, moving, strict=True)]),
+        joined([_of_long_waves(law, each.scaled(law.direct)) for law, each in pairs]),
+        joined([each.scaled(law.poisson) for law, each in pairs]),
+        tuple((law.layers, each) for law, each in pairs if law.layers is not None),
     )
+
+
+def _of_long_waves(law: ShearLaw, direct: MovingCompliance) -> MovingCompliance:
+    """Compliance of the part of 1/r with the slope by old creep of long waves."""
+    if law.layers is None or not direct.drift:
+        return direct
+    share = float(law.layers.long_waves.along / law.layers.short_waves.along)
+    return replace(direct, drift=share * direct.drift)
 
 
 def _terms(body: Material | Layered) -> list[SurfaceTerm]:
     """Terms of a body. Those of a layered solid do not flow, however its response is separated."""
-    parts = (body,) if isinstance(body, Material) else body.materials
-    creep = [part.contact_compliance() for part in parts]
-    if any(not isinstance(each, SeriesCompliance) or each.fluidity > 0 for each in creep):
+    if flowing(body):
         return terms_of(body)
     return [replace(term, compliance=_without_flow(term.compliance)) for term in terms_of(body)]
+
+
+def flowing(body: Material | Layered) -> bool:
+    """True if the terms of a body may flow: if one of its materials does, or is no series."""
+    parts = (body,) if isinstance(body, Material) else body.materials
+    creep = [part.contact_compliance() for part in parts]
+    return any(not isinstance(each, SeriesCompliance) or each.fluidity > 0 for each in creep)
 
 
 def _without_flow(compliance: ContactCompliance) -> ContactCompliance:

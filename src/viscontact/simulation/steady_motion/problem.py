@@ -13,10 +13,10 @@ from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
-from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.shear_terms import refuse_sliding_layers
 from viscontact.mechanics.problem.surface import creeps
-from viscontact.simulation.checks.friction import refuse_coupled
+from viscontact.simulation.checks.friction import check_grid_of_friction, refuse_coupled
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,11 +105,9 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
             "travel, less 1, got none; give one or a list, as in creepage=[0.001, 0.01] or, in a "
             "case, 'creepage: [0.1 %, 1 %]', or leave friction out"
         )
-    if any(isinstance(body, Layered) for body in contact.bodies):
-        raise ValueError(
-            "friction: bodies of layers are not supported under friction in steady motion; use a "
-            "half-space"
-        )
+    refuse_sliding_layers(contact.bodies)
+    if isinstance(contact.grid, Grid):
+        check_grid_of_friction(contact, contact.grid)
     if periodic:
         raise ValueError(
             "creepage: a body on a grid that is periodic along its motion has no end, and cannot "
