@@ -18,12 +18,13 @@ from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.results.figures import save_animation
 from viscontact.cli.results.history_table import _shown_scalars
 from viscontact.cli.results.reports import _run_label
-from viscontact.cli.studies.typed_options import as_typed, bounds, instant
+from viscontact.cli.studies.typed_options import as_typed, instant
 from viscontact.cli.sweep.checks import _list_names
-from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch, split_values
+from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.sweep.table import first_names
 from viscontact.runs.processes.request import RunRequest
+from viscontact.studies.typed_values import bounds, split_values
 
 
 def test_place_of_a_scalar_is_an_instant_or_a_speed() -> None:

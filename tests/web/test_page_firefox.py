@@ -129,3 +129,19 @@ def test_the_token_opens_the_page_once_and_a_refusal_is_explained(
     assert "open the address that viscontact serve has printed" in text
     firefox.tell("WebDriver:Navigate", url=server.address)
     firefox.until("'ready' in document.documentElement.dataset")
+
+
+def test_a_sweep_is_run(server: seen.Server, firefox: Firefox) -> None:
+    write_case(firefox, CASE)
+    firefox.click("#study summary")
+    firefox.script(
+        "const key = document.getElementById('study-key-1'); key.value = 'load.force';"
+        "key.dispatchEvent(new Event('change', { bubbles: true }))"
+    )
+    firefox.type("#study-key-1-values", "2 N, 4 N")
+    firefox.click("#study-go")
+    name = firefox.until("document.documentElement.dataset.studied")
+    assert server.ask(f"api/runs/{name}")["state"] == "done"
+    assert firefox.script("return document.querySelectorAll('#study-table tbody tr').length") == 2
+    firefox.until("document.documentElement.scrollWidth <= window.innerWidth")
+    assert firefox.faults() == []

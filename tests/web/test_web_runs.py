@@ -208,6 +208,7 @@ class PlannedRun:
     """Run that is started and computes nothing."""
 
     is_over = is_deleted = is_starting = False
+    workers = 1
 
     def __init__(self, folder: object, name: str, entry: RunEntry) -> None:
         self.entry = entry

@@ -26,7 +26,7 @@ from viscontact.report.page_elements import (
     text_table,
     value_cell,
 )
-from viscontact.report.study_page import StudyPage
+from viscontact.report.study_page import StudyPage, StudyRows
 from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.units.formatting import format_quantity
@@ -148,6 +148,12 @@ def _trade_off(table: xr.Dataset) -> Iterator[Element]:
 
 def _trials(table: xr.Dataset) -> Iterator[Element]:
     """Table of all trials."""
+    found = trial_rows(table)
+    yield text_table(found.head, found.rows)
+
+
+def trial_rows(table: xr.Dataset) -> StudyRows:
+    """Return the table of all trials: cells, parameters, scalars with their errors, and states."""
     rows = []
     for number in range(table.sizes["trial"]):
         trial = table.isel(trial=number)
@@ -155,7 +161,8 @@ def _trials(table: xr.Dataset) -> Iterator[Element]:
         why = str(trial["message"].values) or ("not feasible" if has_limit else "no limit")
         state = "feasible" if trial["feasible"] else why
         rows.append((str(number), str(trial["level"].values), *_trial(table, number), state))
-    yield text_table(("trial", "cells", *_labels(table), ""), rows)
+    head = ("trial", "cells", *_labels(table), "")
+    return StudyRows(head, rows, range(2, len(head) - 1))
 
 
 def _labels(table: xr.Dataset) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -13,6 +13,16 @@ from viscontact import __version__
 from viscontact.drawing.svg.html import element
 from viscontact.report.html_page import html_page
 from viscontact.report.page_elements import remark
+
+
+@dataclass(frozen=True)
+class StudyRows:
+    """Table of the runs of a study, a row of texts for each."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    numbers: Collection[int]  # columns of numbers
+    judged: bool = False  # the last column has verdicts
 
 
 @dataclass(frozen=True)

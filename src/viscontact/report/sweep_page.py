@@ -17,7 +17,7 @@ from viscontact.drawing.plotly.responses import responses
 from viscontact.drawing.svg.html import element
 from viscontact.report.page_elements import drawn_figure, facts, listed, remark, stacked_table
 from viscontact.report.result_chapters import heading_of, panel
-from viscontact.report.study_page import StudyPage
+from viscontact.report.study_page import StudyPage, StudyRows
 from viscontact.report.title_block import file_lines, title_lines
 from viscontact.report.verdict_chapter import LEGEND
 from viscontact.results.formatting import format_with_error_in
@@ -94,30 +94,32 @@ def _interactive(ds: xr.Dataset) -> list[Figure]:
 def _panels(ds: xr.Dataset, figures: list[Figure]) -> list[Element]:
     """Boxes of the interactive figures."""
     if not figures:
-        return [_not_drawn(ds)]
+        return [remark(why_not_drawn(ds))]
     red = " Red: beyond the allowable value." if limits_of(ds) else ""
     return [
         element("noscript", element("p", "The figures of this page need JavaScript.")),
         element("div", *map(panel, figures), class_="panels"),
-        remark(_caption(ds) + red),
+        remark(response_caption(ds) + red),
     ]
 
 
 def _drawing(ds: xr.Dataset) -> list[Element]:
     """Drawing of the response."""
     try:
-        return [drawn_figure(response(ds), _caption(ds), "Response over the keys")]
+        return [drawn_figure(response(ds), response_caption(ds), "Response over the keys")]
     except ValueError:
-        return [_not_drawn(ds)]
+        return [remark(why_not_drawn(ds))]
 
 
-def _not_drawn(ds: xr.Dataset) -> Element:
+def why_not_drawn(ds: xr.Dataset) -> str:
+    """Return the reason why there is no figure of the response."""
     few = int((ds["state"] == "done").sum()) < 2
     why = "One run is finished." if few else "The finished runs have the same chief values."
-    return remark(f"Not drawn: {why}")
+    return f"Not drawn: {why}"
 
 
-def _caption(ds: xr.Dataset) -> str:
+def response_caption(ds: xr.Dataset) -> str:
+    """Return the caption of the response."""
     caption = f"Largest values over {over_of(ds)}; bars are their errors."
     if any(np.isposinf(largest_values(ds, name)[1]).any() for name in compared_scalars(ds)):
         caption += f" Hollow: the value depends on the mesh ({WHY_MESH_DEPENDENT})."
@@ -126,9 +128,14 @@ def _caption(ds: xr.Dataset) -> str:
 
 def _reasons(ds: xr.Dataset) -> Element | None:
     """List of the runs with a message; None without any."""
+    return _list_of_first(messages_of(ds))
+
+
+def messages_of(ds: xr.Dataset) -> list[str]:
+    """Return the messages of the runs that have one, each with the name and state of its run."""
     states, messages, names = (ds[name].values.ravel() for name in ("state", "message", "name"))
     numbers = np.flatnonzero(messages != "").tolist()
-    return _list_of_first([f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers])
+    return [f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers]
 
 
 def _changes(ds: xr.Dataset) -> Element | None:
@@ -141,15 +148,20 @@ def _changes(ds: xr.Dataset) -> Element | None:
 
 
 def _warnings(ds: xr.Dataset) -> Element | None:
-    """List of the warnings of the runs: those that differ in numbers alone as one."""
+    """List of the warnings of the runs; None without any."""
+    return _list_of_first(warnings_of(ds))
+
+
+def warnings_of(ds: xr.Dataset) -> list[str]:
+    """Return the warnings of the runs: those that differ in numbers alone as one."""
     if "warnings" not in ds:
-        return None
+        return []
     alike: dict[str, list[tuple[str, str]]] = {}
     names = ds["name"].values.ravel()
     for name, texts in zip(names, ds["warnings"].values.ravel(), strict=True):
         for text in str(texts).splitlines():
             alike.setdefault(_NUMBER.sub("#", text), []).append((str(name), text))
-    return _list_of_first([_stated(each) for each in alike.values()])
+    return [_stated(each) for each in alike.values()]
 
 
 def _stated(warnings: list[tuple[str, str]]) -> str:
@@ -164,16 +176,23 @@ def _list_of_first(lines: list[str]) -> Element | None:
     return listed([*lines[:MOST_REASONS], f"... and {more} more" if more > 0 else ""])
 
 
-def _table(ds: xr.Dataset) -> Iterator[Element]:
-    columns, count = [*_key_columns(ds), *_scalar_columns(ds)], ds["state"].size
+def run_rows(ds: xr.Dataset) -> StudyRows:
+    """Return the table of the runs: states, keys, and chief scalars with their errors."""
+    columns = [*_key_columns(ds), *_scalar_columns(ds)]
     texts = [ds[name].values.ravel().astype(str).tolist() for name in ("run", "state")]
     texts += [cells for _, cells in columns]
     head, judged = ["run", "state", *(heading for heading, _ in columns)], "verdict" in ds
     if judged:
         head, texts = [*head, "verdict"], [*texts, _verdicts(ds)]
     rows = list(zip(*texts, strict=True))[:MOST_ROWS]
-    numbers = range(2, 2 + len(columns))
-    yield stacked_table(head, rows, numbers=numbers, judged=judged, kind="runs")
+    return StudyRows(head, rows, range(2, 2 + len(columns)), judged)
+
+
+def _table(ds: xr.Dataset) -> Iterator[Element]:
+    found, count = run_rows(ds), ds["state"].size
+    yield stacked_table(
+        found.head, found.rows, numbers=found.numbers, judged=found.judged, kind="runs"
+    )
     more = "" if count <= MOST_ROWS else f"The first {MOST_ROWS} of {count} runs. "
     collect = element("code", "viscontact collect")
     legend = f"{more}Largest values over {over_of(ds)}, with their errors. "

@@ -20,7 +20,7 @@ from viscontact.results.damage import DamagedFileError
 from viscontact.web.access import Access
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
-from viscontact.web.routes import case_routes, run_routes
+from viscontact.web.routes import case_routes, run_routes, study_routes
 from viscontact.web.workspace.pictures import DAMAGED
 from viscontact.web.workspace.problems import InputProblem, RequestError
 
@@ -40,6 +40,9 @@ _MEDIA_TYPES = {
     ".webmanifest": "application/manifest+json",
 }
 _PLOTLY = "plotly.min.js"
+#: Status of input that is refused; header of a page that expects problems of its input as an answer
+#: like any other, and of such an answer.
+_UNPROCESSABLE, _PROBLEMS = 422, "x-problems"
 #: Script that reports use as well.
 _LINKED = "linked.js"
 
@@ -70,6 +73,7 @@ def new_app(calculator: Calculator, token: str = "") -> ASGIApp:
     app.add_exception_handler(Exception, _failed)
     app.include_router(case_routes.router)
     app.include_router(run_routes.router)
+    app.include_router(study_routes.router)
     app.add_api_route("/", _page)
     app.add_api_route("/static/{name}", _static)
     # Outermost, as answers to errors are made outside of added middleware.
@@ -95,7 +99,10 @@ def _static(name: str) -> FileResponse:
 def _answer_refusal(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestError)
     later = error.retry_after
-    headers = None if later is None else {"retry-after": str(later)}
+    headers = {} if later is None else {"retry-after": str(later)}
+    if error.status == _UNPROCESSABLE and request.headers.get(_PROBLEMS) == "expected":
+        # A browser writes an error to its console for each answer of another status.
+        return JSONResponse(error.body, headers={_PROBLEMS: str(error.status)})
     return JSONResponse(error.body, error.status, headers)
 
 

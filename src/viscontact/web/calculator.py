@@ -34,6 +34,7 @@ from viscontact.web.runs.queue import RunQueue
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.runs.run_figures import look_of, run_figures
 from viscontact.web.runs.status import result_summary, status_of
+from viscontact.web.runs.study import StudyRun, study_status
 from viscontact.web.workspace.folder import Folder
 from viscontact.web.workspace.problems import RequestError
 
@@ -113,6 +114,8 @@ class Calculator:
 
     async def status(self, run: ManagedRun, patience: float | None = None) -> dict[str, Any]:
         """Return the status of a run; after `patience` [s] without the summary of its result."""
+        if isinstance(run, StudyRun):
+            return study_status(run)
         if not run.is_over:
             return status_of(run)
         key = f"{run.entry.state} {run.course.instants} {__version__}"

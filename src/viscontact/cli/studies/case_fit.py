@@ -12,11 +12,12 @@ from viscontact.cli.material.fit_kinds import switch
 from viscontact.cli.material.fit_options import FitArguments
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit, write_section
 from viscontact.cli.studies.execution import Records, performed, write_report
-from viscontact.cli.studies.typed_options import bounds, by_key, case_of, settings_of
+from viscontact.cli.studies.typed_options import by_key, case_of, settings_of
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.studies.calibration.fit_case import fit_case
 from viscontact.studies.calibration.record import ContactRecord, read_record
 from viscontact.studies.calibration.result import CaseFit
+from viscontact.studies.typed_values import bounds
 
 #: Options of fits to runs by their parameters; `quiet`, which asks for nothing, goes with all fits.
 _OF_RUNS = (

@@ -9,17 +9,16 @@ from typing import Any
 from viscontact.cli.studies.execution import Records, conclude, performed
 from viscontact.cli.studies.profiles import execute_profile_design
 from viscontact.cli.studies.typed_options import (
-    bounds,
     by_key,
     instant,
     scenarios_of,
     shared_arguments,
 )
-from viscontact.cli.sweep.plan_options import split_values
 from viscontact.cli.terminal.messages import refuse
 from viscontact.studies.design.design import design
 from viscontact.studies.journal import JOURNAL_NAME
 from viscontact.studies.study_files import BEST_NAME
+from viscontact.studies.typed_values import bounds, typed_parameter
 
 _CHANGE = "KEY=VALUE, with the unit, e.g. 'indenter.crown_radius=20 mm:2 m:log'"
 _SCATTER = "KEY=VALUE, with the unit, e.g. 'material.poisson_ratio=0.36:0.40'"
@@ -44,7 +43,7 @@ def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         refuse("give --minimise or --maximise, e.g. --minimise peak_pressure")
     return {
         **shared_arguments(typed),
-        "change": by_key("--change", typed["change"], _CHANGE, _parameter),
+        "change": by_key("--change", typed["change"], _CHANGE, typed_parameter),
         "minimise": typed["minimise"] or (),
         "maximise": typed["maximise"] or (),
         "at": instant(typed["at"]),
@@ -54,12 +53,6 @@ def design_arguments(typed: Mapping[str, Any]) -> dict[str, Any]:
         "clear_of_ends": bool(typed.get("clear_of_ends")),
         "runs": typed["runs"],
     }
-
-
-def _parameter(given: str) -> tuple[str, ...] | list[str]:
-    """Bounds of a range as a tuple, or a list of values."""
-    is_range = ":" in given and given[0] not in "[{"
-    return bounds(given) if is_range else split_values(given)
 
 
 def _scatter(given: str) -> tuple[str, ...] | str:

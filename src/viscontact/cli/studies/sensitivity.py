@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from viscontact.cli.studies.execution import OF_ALL, Records, conclude, performed
-from viscontact.cli.studies.typed_options import bounds, by_key, instant, shared_arguments
+from viscontact.cli.studies.typed_options import by_key, instant, shared_arguments
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.studies.sensitivity.result import SensitivityResult
 from viscontact.studies.sensitivity.sensitivity import sensitivity
 from viscontact.studies.study_files import write_table
+from viscontact.studies.typed_values import bounds
 
 #: The table as netCDF-4, in the directory of the runs.
 _TABLE_NAME = "sensitivity.nc"

@@ -8,8 +8,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
-from viscontact.cli.sweep.plan_options import key_of, split_values
+from viscontact.cli.sweep.plan_options import key_of
 from viscontact.cli.terminal.messages import refuse
+from viscontact.studies.typed_values import split_values
 from viscontact.units.parsing import parse_quantity
 
 T = TypeVar("T")
@@ -65,11 +66,6 @@ def scenarios_of(texts: Sequence[str] | None) -> dict[str, list[str]]:
     """Values of ``--over`` by key."""
     remedy = "KEY=VALUE, with the unit, e.g. 'load.eccentricity_x=0 mm,5 mm'"
     return by_key("--over", texts, remedy, split_values)
-
-
-def bounds(text: str) -> tuple[str, ...]:
-    """Parts of a range."""
-    return tuple(part.strip() for part in text.split(":"))
 
 
 def instant(text: str) -> Any:

@@ -24,8 +24,7 @@ from viscontact.studies.sweep.designs import (
     paired_design,
     sample_design,
 )
-
-_OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
+from viscontact.studies.typed_values import split_values
 
 
 @dataclass(frozen=True)
@@ -178,23 +177,6 @@ def _axis(text: str) -> tuple[str, list[str]]:
     if not (key_of(text) and equals and values and all(values)):
         refuse(f"--vary {text}: write KEY=VALUE,VALUE,..., e.g. --vary load.force=5kN,10kN")
     return key_of(text), values
-
-
-def split_values(text: str) -> list[str]:
-    """Split at commas outside brackets and quotes."""
-    pieces, depth, quote = [""], 0, ""
-    for letter in text:
-        if quote:
-            quote = "" if letter == quote else quote
-        elif letter in _QUOTES and not pieces[-1].strip():
-            quote = letter
-        else:
-            depth += (letter in _OPENING) - (letter in _CLOSING)
-            if letter == "," and depth == 0:
-                pieces.append("")
-                continue
-        pieces[-1] += letter
-    return [piece.strip() for piece in pieces]
 
 
 def _with_files(key: str, values: Sequence[str], case: Path) -> list[str]:

@@ -13,7 +13,6 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 
 from viscontact.runs.processes.job import Job
-from viscontact.runs.processes.progress import RunProgress
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, RESUMABLE, STOPPED
 
 
@@ -49,10 +48,10 @@ class RunProcess:
             self._opened = opened.pop_all()
 
     def begin(self, words: Iterable[str]) -> bool:
-        """Begin a run with these arguments; False if the process has ended meanwhile."""
+        """Begin a command with these words; False if the process has ended meanwhile."""
         assert self.process.stdin is not None
         try:
-            self.process.stdin.write(json.dumps(["run", *words]).encode() + b"\n")
+            self.process.stdin.write(json.dumps([*words]).encode() + b"\n")
             self.process.stdin.flush()
         except OSError:
             return False
@@ -72,16 +71,16 @@ class RunProcess:
 
 
 class Child:
-    """Process of a run, which locks its directory, saves and handles signals as a single run does.
+    """Process of a run, which locks its directory, saves and handles signals as a command does.
 
     `spare` is a process that waits for a run. An OSError means that the system starts no process.
     """
 
     def __init__(self, job: Job, spare: RunProcess | None = None) -> None:
         self.job = job
-        self.course = RunProgress(job)
         self._stopping = self._killed = False
-        words = list(replace(job.request, output=job.directory, quiet=True).words())
+        whole = replace(job.request, output=job.directory, quiet=True)
+        words = [whole.command, *whole.words()]
         if spare is not None and not spare.begin(words):
             spare.close()
             spare = None

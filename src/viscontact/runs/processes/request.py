@@ -1,4 +1,4 @@
-"""Arguments of `viscontact run`, and exit codes."""
+"""Arguments of `viscontact run` and of studies, and exit codes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ RESUMABLE = 75
 
 @dataclass(frozen=True)
 class RunRequest:
-    """Arguments of ``viscontact run``."""
+    """Arguments of ``viscontact run``, or of the command of a study, which takes the same."""
 
     case: Path
     output: Path | None = None  # run directory; next to the case file when left out
@@ -26,19 +26,22 @@ class RunRequest:
     settings: tuple[str, ...] = ()  # values of --set
     threads: int = 1  # of one Fourier transform
     quiet: bool = False  # print errors only
+    command: str = "run"
+    options: tuple[str, ...] = ()  # further words, as those of --vary
 
     @property
     def resuming(self) -> str:
         """Shell command that resumes the run."""
-        return command(*replace(self, resume=False, overwrite=False).words(), "--resume")
+        words = replace(self, resume=False, overwrite=False).words()
+        return command(*words, "--resume", name=self.command)
 
     @property
     def repeating(self) -> str:
         """Shell command that repeats the request."""
-        return command(*self.words())
+        return command(*self.words(), name=self.command)
 
     def words(self) -> Iterator[str]:
-        """Words after ``viscontact run``, the case first."""
+        """Words after the name of the command, the case first."""
         yield no_option(self.case)
         if self.output is not None:
             yield from ("-o", no_option(self.output))
@@ -48,6 +51,7 @@ class RunRequest:
             yield from ("--threads", str(self.threads))
         if self.quiet:
             yield "--quiet"
+        yield from self.options
         yield from (f"--{name}" for name in ("resume", "overwrite") if getattr(self, name))
 
 
@@ -56,8 +60,8 @@ def no_option(path: Path) -> str:
     return f"./{path}" if str(path).startswith("-") else str(path)
 
 
-def command(*words: str) -> str:
-    """Return a ``viscontact run`` command with these words, quoted for the shell."""
-    whole = ["viscontact", "run", *words]
+def command(*words: str, name: str = "run") -> str:
+    """Return a command of viscontact with these words, quoted for the shell."""
+    whole = ["viscontact", name, *words]
     # Windows quotes in its own way.
     return subprocess.list2cmdline(whole) if os.name == "nt" else shlex.join(whole)

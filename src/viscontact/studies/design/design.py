@@ -10,40 +10,27 @@ from pathlib import Path
 from typing import Any, Literal
 
 from viscontact.case import Case
-from viscontact.case.aliases import value_at
 from viscontact.case.errors import dotted
-from viscontact.case.overrides import key_path
 from viscontact.studies.case_values import (
-    case_path,
-    case_with,
     fields_setting,
     fingerprint,
-    refuse_repeated,
-    texts,
 )
 from viscontact.studies.cells import coarse_cells
 from viscontact.studies.design.conclusions import notes_on, notes_on_trade_off, why_infeasible
 from viscontact.studies.design.evaluated_trials import Searched, Trials, searched
-from viscontact.studies.design.goals import constraints_of, goals_of, require_bounds, with_limits
 from viscontact.studies.design.objectives import Objective
-from viscontact.studies.design.parameters import space_of
+from viscontact.studies.design.plan import planned_design
 from viscontact.studies.design.result import DesignResult, table_of
-from viscontact.studies.design.scenarios import Scenario, scenarios_of
-from viscontact.studies.design.trade_off import compromises, searched_trade_off
+from viscontact.studies.design.trade_off import searched_trade_off
 from viscontact.studies.design.trial_runs import CaseTrials
 from viscontact.studies.evaluation import Budget, BudgetSpentError, Progress, evaluating
 from viscontact.studies.executors.executor_choice import chosen_workers
 from viscontact.studies.infeasible import InfeasibleError
 from viscontact.studies.journal import journal_of
-from viscontact.studies.scalars import At, require_fluid, require_instant
-from viscontact.studies.space import Space
 from viscontact.studies.study_files import BEST_NAME, TRIALS_NAME, write_case, write_table
-from viscontact.units.numbers import whole
 
 #: Way of the search, which another journal does not have: trials would follow on others.
 SEARCH = "surrogate of what the runs state"
-#: Most runs of a search, where none are given.
-RUNS = 60
 
 
 def design(  # noqa: PLR0913
@@ -177,18 +164,20 @@ def design(  # noqa: PLR0913
     >>> abs(force / (4 / 3 * 4e6 * 0.6e-3**3 / 5e-3) - 1) < 0.1  # Hertz: F = 4/3 E* a^3 / R
     True
     """
-    path, fixed = case_path(case), texts(settings)
-    space, allowable = space_of(change), case_with(path, fixed).allowable
-    limits = constraints_of(with_limits(constraints, allowable))
-    others = {"over": tuple(over or ()), "settings": tuple(fixed)}
-    refuse_repeated(change=space.keys, **others)
-    refuse_repeated(scatter=tuple(scatter or ()), **others)
-    values = _own_values(case_with(path, fixed), (*space.keys, *(scatter or {})))
-    goals = goals_of(minimise, maximise, at, space, values)
-    require_bounds(goals, limits)
-    budget = Budget(whole("runs", _default_runs(len(goals)) if runs is None else runs, 1))
-    scenarios = scenarios_of(over, scatter, space, values)
-    own = _check_case(path, space, scenarios, fixed, at)
+    plan = planned_design(
+        case,
+        change,
+        minimise=minimise,
+        maximise=maximise,
+        at=at,
+        over=over,
+        scatter=scatter,
+        constraints=constraints,
+        settings=settings,
+        runs=runs,
+    )
+    path, fixed, goals, limits, own = plan.path, plan.fixed, plan.goals, plan.limits, plan.own
+    budget, scenarios = Budget(plan.runs), plan.scenarios
     arguments = {
         **{"case": fingerprint(own), "change": repr(change), "goal": repr(goals)},
         **{"over": repr(over), "scatter": repr(scatter or None)},
@@ -196,26 +185,19 @@ def design(  # noqa: PLR0913
         **{"clear_of_ends": bool(clear_of_ends)},
     }
     cells = coarse_cells(own)
-    require_fluid(own, [*(each.name for each in goals), *(each.scalar for each in limits)])
     fields = fields_setting(own)
     of_case = CaseTrials(path, fixed, scenarios, goals, limits, cells, fields, bool(clear_of_ends))
     journal = journal_of("design", arguments, directory=directory, overwrite=overwrite)
     chosen = chosen_workers(workers, executor, client)
     with evaluating(budget, journal, chosen, progress) as evaluation:
         levels = ("coarse", "case") if of_case.coarse else ("case",)
-        trials = Trials(space, of_case, goals, limits, evaluation, levels, len(scenarios))
-        found = _search(trials, of_case, values, _unused_tolerances(own, scatter))
+        trials = Trials(plan.space, of_case, goals, limits, evaluation, levels, len(scenarios))
+        found = _search(trials, of_case, plan.values, _unused_tolerances(own, scatter))
         if directory is not None:
             write_case(Path(directory) / BEST_NAME, found.best_case)
-            write_table(Path(directory) / TRIALS_NAME, found.table)
+            about = found.table.assign_attrs(headline=str(found))
+            write_table(Path(directory) / TRIALS_NAME, about)
         return found
-
-
-def _default_runs(goals: int) -> int:
-    """Most runs of each search; there is one for each goal and for each compromise."""
-    if goals == 1:
-        return RUNS
-    return RUNS * (goals + len(compromises(goals)))
 
 
 def _search(
@@ -275,37 +257,3 @@ def _unused_tolerances(case: Case, scatter: Mapping[str, Any] | None) -> list[st
     if not left:
         return []
     return [f"tolerances of the case count in a design only as scatter, as {left[0]}"]
-
-
-def _check_case(
-    path: Path,
-    space: Space,
-    scenarios: Sequence[Scenario],
-    fixed: Mapping[str, str],
-    at: At,
-) -> Case:
-    """Check the case at its own values, at the bounds and in all scenarios, and return it."""
-
-    def read(scenario: Scenario, trial: Mapping[str, str]) -> Case:
-        return case_with(path, {**fixed, **scenario.settings(trial)})
-
-    own = read(scenarios[0], {})
-    require_instant(own, at)
-    for corner in space.corners():
-        for each in scenarios:
-            if each is scenarios[0] or each.deviations:
-                read(each, corner)
-    for each in scenarios[1:]:
-        read(each, {})
-    return own
-
-
-def _own_values(case: Case, keys: Sequence[str]) -> dict[str, str]:
-    """Values of some keys in the case, where they are plain."""
-    found = {}
-    for key in keys:
-        path = key_path(key)
-        value = case.document.of_aliases.get(path, value_at(case.document.data, path))
-        if isinstance(value, str | int | float):
-            found[key] = str(value)
-    return found

@@ -233,7 +233,7 @@ async def history(calculator: AppCalculator, name: str, request: Request) -> Res
             write_history(ds, text)
         return text.getvalue()
 
-    return _download(await calculator.do(write, request), f"{_stem(run)}.csv", "text/csv")
+    return download(await calculator.do(write, request), f"{_stem(run)}.csv", "text/csv")
 
 
 @router.get("/runs/{name}/report.html")
@@ -246,7 +246,7 @@ async def report(
     if view:
         headers = {"content-security-policy": REPORT_POLICY}
         return Response(page, media_type="text/html", headers=headers)
-    return _download(page, f"{_stem(run)}.html", "text/html")
+    return download(page, f"{_stem(run)}.html", "text/html")
 
 
 def _report(run: ManagedRun, calculator: AppCalculator) -> bytes:
@@ -284,6 +284,7 @@ def _stem(run: ManagedRun) -> str:
     return file_stem(run.label, run.entry.quality)
 
 
-def _download(content: str | bytes, name: str, media_type: str) -> Response:
+def download(content: str | bytes, name: str, media_type: str) -> Response:
+    """Return content as a file to be saved."""
     headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(name)}"}
     return Response(content, media_type=media_type, headers=headers)

@@ -10,6 +10,7 @@ from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.child import RunProcess
 from viscontact.web.runs.run import ManagedRun
+from viscontact.web.runs.study import StudyRun
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.problems import RequestError
 
@@ -39,7 +40,7 @@ class RunQueue:
         self._folder, self.at_once, self.is_closing = folder, at_once, False
         self._keeps_spare, self._entering = keeps_spare, 0
         self._spare: RunProcess | None = None
-        self._runs = {name: ManagedRun(folder, name, entry) for name, entry in folder.runs()}
+        self._runs = {name: _managed(folder, name, entry) for name, entry in folder.runs()}
         for run in self._runs.values():
             run.restore_state()
 
@@ -85,7 +86,7 @@ class RunQueue:
 
     def add(self, name: str, entry: RunEntry) -> ManagedRun:
         """Add a run to the queue."""
-        self._runs[name] = run = ManagedRun(self._folder, name, entry)
+        self._runs[name] = run = _managed(self._folder, name, entry)
         self.poll()
         return run
 
@@ -133,7 +134,8 @@ class RunQueue:
         """True if a further run could begin, and none is held up by the start of a process."""
         active = [run for run in self._runs.values() if run.is_at_work]
         is_held_up = any(run.is_starting or run.seconds_at_work < _UNDISTURBED for run in active)
-        return not self.is_closing and len(active) < self.at_once and not is_held_up
+        at_work = sum(run.workers for run in active)
+        return not self.is_closing and at_work < self.at_once and not is_held_up
 
     def _remove(self, run: ManagedRun) -> None:
         """Remove a run, unless its files cannot be removed."""
@@ -170,7 +172,7 @@ class RunQueue:
 
     def _next_run(self) -> ManagedRun | None:
         """Run to start next: coarse ones first, as they are short."""
-        active = sum(run.is_at_work for run in self._runs.values())
+        active = sum(run.workers for run in self._runs.values() if run.is_at_work)
         waiting = [run for run in self._runs.values() if run.entry.state == "waiting"]
         if not waiting or active >= self.at_once:
             return None
@@ -182,3 +184,9 @@ class RunQueue:
         beginning = [run for run in self._runs.values() if run.is_starting]
         promised = sum(run.entry.memory for run in beginning)
         return chosen if chosen.entry.memory + promised <= available_memory() else None
+
+
+def _managed(folder: Folder, name: str, entry: RunEntry) -> ManagedRun:
+    """Run or study of an entry."""
+    kind = ManagedRun if entry.study is None else StudyRun
+    return kind(folder, name, entry)

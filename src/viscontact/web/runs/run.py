@@ -37,7 +37,7 @@ class ManagedRun:
         self._marched: float | None = None
         self._since, self._before = 0.0, 0
         self._started_at = 0.0
-        self.course = RunProgress(self._job(RunStage.STOPPED))
+        self.course = self._new_course(self._job(RunStage.STOPPED))
 
     @property
     def label(self) -> str:
@@ -48,6 +48,11 @@ class ManagedRun:
     def axis(self) -> RunAxis:
         """Quantity in which the states of the run differ."""
         return RUN_AXES["speed" if self.entry.over == "speed" else "time"]
+
+    @property
+    def workers(self) -> int:
+        """Number of runs that it computes at the same time."""
+        return 1
 
     @property
     def is_over(self) -> bool:
@@ -80,19 +85,18 @@ class ManagedRun:
         if self.entry.state in ("cancelled", "interrupted"):
             return True
         is_left = self.entry.state == "failed" and self.entry.resumable
-        return is_left and (self.directory / STATE_NAME).is_file()
+        return is_left and self._is_saved()
 
     def start(self, spare: RunProcess | None) -> None:
         """Start the run in a process that waits for one, or note why that failed."""
-        saved = (self.directory / STATE_NAME).is_file()
-        job = self._job(RunStage.STOPPED if saved else RunStage.NEW)
+        job = self._job(RunStage.STOPPED if self._is_saved() else RunStage.NEW)
+        self.course = self._new_course(job)
         self._pace, self._marched, self._stop_state = None, None, ""
         try:
             self._child = Child(job, spare)
         except OSError as error:
             self.set_state("failed", f"the run cannot be started: {error}")
             return
-        self.course = self._child.course
         self._before, self._started_at = self.course.instants, clock.monotonic()
         self.set_state("running")
 
@@ -101,7 +105,7 @@ class ManagedRun:
         if self._child is None:
             self._poll_lock()
             return
-        self.course.look()
+        self._look()
         self._keep_pace()
         if (ended := self._child.ended()) is not None:
             self._end(ended)
@@ -180,7 +184,7 @@ class ManagedRun:
             return
         if self._is_complete():
             self.set_state("done")
-        elif is_locked(self.directory):
+        elif self._is_in_use():
             self.set_state("running")
         else:
             self.set_state("interrupted")
@@ -195,9 +199,13 @@ class ManagedRun:
 
     def _poll_lock(self) -> None:
         """Update a run of an earlier server, which ends when its lock is free."""
-        self.course.look()
-        if not is_locked(self.directory):
+        self._look()
+        if not self._is_in_use():
             self.restore_state()
+
+    def _look(self) -> None:
+        """Read the progress."""
+        self.course.look()
 
     def _keep_pace(self) -> None:
         part, now = self.course.part, clock.monotonic()
@@ -213,6 +221,17 @@ class ManagedRun:
             *(request, self.directory, self.name, standing),
             *(entry.instants, entry.end, entry.work, entry.memory),
         )
+
+    def _new_course(self, job: Job) -> RunProgress:
+        return RunProgress(job)
+
+    def _is_saved(self) -> bool:
+        """True if the run can be continued from what is saved."""
+        return (self.directory / STATE_NAME).is_file()
+
+    def _is_in_use(self) -> bool:
+        """True if a process computes the run."""
+        return is_locked(self.directory)
 
     def _is_complete(self) -> bool:
         # The restart file is removed when a run is complete.

@@ -39,7 +39,7 @@ def status_of(run: ManagedRun, summary: Mapping[str, Any] | None = None) -> dict
     """Return the status of a run, with the summary of its result once that has been read."""
     entry, course, left = run.entry, run.course, run.seconds_left
     found = summary or {}
-    problems = _problems(run)
+    problems = problems_of(run)
     # The message of a failed run is more specific.
     is_readable = summary is None or "table" in found or entry.state == "failed"
     is_damaged = course.instants > 0 and not is_readable
@@ -109,7 +109,8 @@ def _stage(run: ManagedRun) -> str:
     return "starting" if run.is_at_work and not run.course.instants else _STAGES[run.entry.state]
 
 
-def _problems(run: ManagedRun) -> list[InputProblem]:
+def problems_of(run: ManagedRun) -> list[InputProblem]:
+    """Return the problems that a failed run states; none of another one."""
     if run.entry.state != "failed":
         return []
     lines = [line for line in run.entry.said if not line.startswith(_COMMANDS)]

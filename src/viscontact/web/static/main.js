@@ -15,6 +15,8 @@ import { goToProblem } from "./problems.js";
 import { drawList, drawProgress, setUpProgress } from "./progress.js";
 import { drawResults } from "./results.js";
 import { findAgain, list, refer, runs, start, state } from "./runs.js";
+import { setUpStudy, study } from "./study.js";
+import { drawStudy } from "./study_answer.js";
 import { useSchema } from "./schema.js";
 import { connection, get, isAboutCase, upload } from "./server.js";
 import { onTheme, setUpTheme } from "./theme.js";
@@ -179,6 +181,7 @@ function setUpUnits() {
     try { localStorage.setItem(key, select.value); } catch { /* storage is disabled */ }
     useSystem(select.value);
     drawResults();
+    drawStudy(load).catch(complain);
   });
 }
 
@@ -200,9 +203,10 @@ function setUpRuns() {
   });
   runs.addEventListener("reference", redraw);
   runs.addEventListener("listed", () => drawList({ load, complain }));
+  runs.addEventListener("study", () => { drawList({ load, complain }); drawStudy(load).catch(complain); });
   checked.addEventListener("change", drawButtons);
   window.addEventListener("focus", () => list());
-  onTheme(() => { draw(); drawResults(); });
+  onTheme(() => { draw(); drawResults(); drawStudy(load).catch(complain); });
 }
 
 function setUpConnection() {
@@ -220,8 +224,8 @@ async function open() {
   if (location.search) history.replaceState(null, "", location.pathname + location.hash);
   setUpConnection();
   document.body.addEventListener("refused", ({ detail }) => complain(detail));
-  const answers = ["schema", "examples", "materials", "units"].map((name) => get(`/api/${name}`));
-  const [schema, shipped, materials, units] = await Promise.all(answers);
+  const answers = ["schema", "examples", "materials", "units", "scalars"].map((name) => get(`/api/${name}`));
+  const [schema, shipped, materials, units, scalars] = await Promise.all(answers);
   examples = shipped;
   useSchema(schema);
   useExampleTitles(examples.map(({ title }) => title));
@@ -234,7 +238,8 @@ async function open() {
   setUpCase();
   setUpChecking();
   setUpFit();
-  setUpProgress(complain);
+  setUpStudy(scalars, complain);
+  setUpProgress(complain, study);
   setUpRuns();
   draft.addEventListener("replaced", redrawForm);
   draft.addEventListener("structure", redrawForm);

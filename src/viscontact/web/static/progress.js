@@ -2,16 +2,20 @@
 
 import { items, make, place, settled, write } from "./dom.js";
 import { drawGrowing } from "./growing.js";
-import { cancel, forget, refer, resume, show, start, state, watch } from "./runs.js";
+import { cancel, forget, hasResults, refer, resume, show, start, state, watch } from "./runs.js";
 import { get } from "./server.js";
 import { lasting } from "./units.js";
 
 let spoken = "";
 
-export function setUpProgress(complain) {
+// `study` repeats a study that has failed.
+export function setUpProgress(complain, study) {
   place("cancel").addEventListener("click", () => cancel().catch(complain));
   place("resume").addEventListener("click", () => resume(state.active.id).catch(complain));
-  place("again").addEventListener("click", () => start(state.active.status.quality).catch(complain));
+  place("again").addEventListener("click", () => {
+    const { quality, study: isStudy } = state.active.status;
+    (isStudy ? study() : start(quality)).catch(complain);
+  });
 }
 
 export function drawProgress() {
@@ -19,7 +23,7 @@ export function drawProgress() {
   box.hidden = !status || status.state === "done";
   if (!status) return;
   box.dataset.state = state.lost ? "lost" : status.state;
-  const quality = status.quality === "coarse" ? "Coarse answer" : "Full run";
+  const quality = status.study ? "Study" : status.quality === "coarse" ? "Coarse answer" : "Full run";
   write(place("progress-title"), `${quality}: ${status.label}`);
   const bar = place("progress-bar");
   if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
@@ -37,7 +41,7 @@ export function drawProgress() {
 }
 
 // Before its first step a run is started, not resumed.
-const onward = (status) => (status.figures.length ? "Resume" : "Start");
+const onward = (status) => (status.study || status.figures.length ? "Resume" : "Start");
 
 function progressText(status) {
   if (status.over || status.stage === "waiting") return status.message;
@@ -47,7 +51,8 @@ function progressText(status) {
   return parts.join(" · ");
 }
 
-function stage({ stage: now, step, steps, axis }) {
+function stage({ stage: now, step, steps, axis, message, study }) {
+  if (study) return message;
   if (now === "errors") return "error bars";
   if (!step) return "starting";
   const name = axis === "speed" ? "speed" : "step";
@@ -69,7 +74,7 @@ const isReference = (run) => state.reference?.id === run.id;
 
 // `load` writes a case into the form; `complain` shows errors.
 const buttonsFor = (run, { load, complain }) => [
-  run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
+  hasResults(run) && act("Show", "Show this answer", () => show(run.id, run.study ? run : null), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
   run.resumable && act(onward(run), "Continue this run", () => resume(run.id), complain),
   run.figures.length > 0 && act(isReference(run) ? "Drop reference" : "Reference", "Compare with this answer",
@@ -88,10 +93,12 @@ const FEW = 6;
 let all = false;
 export function drawList(acts) {
   const shown = all ? state.listed : state.listed.slice(0, FEW), more = state.listed.length - shown.length;
-  const rows = shown.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
+  const isShown = (run) => [state.shown?.id, state.study?.id].includes(run.id);
+  const rows = shown.map((run) => make("li", { class: isShown(run) ? "current" : "" },
     make("div", { class: "run-name" }, make("b", { textContent: run.label }),
+      run.study && make("span", { class: "chip", textContent: "study" }),
       make("span", { class: `chip ${run.quality}`, textContent: run.quality }),
-      run.id === state.shown?.id && make("span", { class: "chip", textContent: "shown" }),
+      isShown(run) && make("span", { class: "chip", textContent: "shown" }),
       isReference(run) && make("span", { class: "chip warm", textContent: "reference" }),
       make("span", { class: "faint", textContent: `${run.state} · ${when(run.created)}` })),
     make("div", { class: "run-acts" }, buttonsFor(run, acts))));

@@ -3,29 +3,33 @@
 import { caseText } from "./draft.js";
 import { connection, follow, get, post, remove } from "./server.js";
 
-// Dispatches "active" (the followed run has changed), "shown", "reference" and "listed".
+// Dispatches "active" (the followed run or study has changed), "shown", "reference", "study" (the one
+// that is shown has changed) and "listed".
 export const runs = new EventTarget();
-export const state = { active: null, shown: null, reference: null, listed: [], lost: false };
+export const state = { active: null, shown: null, reference: null, study: null, listed: [], lost: false };
 
 let stop = () => {};
 const notify = (what) => runs.dispatchEvent(new Event(what));
 
 // The address of the page contains its runs, for a reload or another tab.
 function remember() {
-  const names = { run: state.active?.id, shown: state.shown?.id, ref: state.reference?.id };
+  const names = { run: state.active?.id, shown: state.shown?.id, ref: state.reference?.id, study: state.study?.id };
   const parts = Object.entries(names).filter(([, id]) => id).map(([name, id]) => `${name}=${id}`);
   history.replaceState(null, "", location.pathname + (parts.length ? `#${parts.join("&")}` : ""));
 }
 
 export async function findAgain() {
   const named = new URLSearchParams(location.hash.slice(1));
-  const [active, shown, reference] = ["run", "shown", "ref"].map((name) => named.get(name));
-  const tries = [shown && show(shown), reference && refer(reference), active && watch(active), list()];
+  const [active, shown, reference, study] = ["run", "shown", "ref", "study"].map((name) => named.get(name));
+  const tries = [shown && show(shown), reference && refer(reference), study && show(study), active && watch(active), list()];
   await Promise.all(tries.filter(Boolean).map((each) => each.catch(() => {})));
 }
 
-export async function start(quality) {
-  const status = await post("/api/runs", { yaml: caseText(), quality });
+export const start = (quality) => begin("/api/runs", { yaml: caseText(), quality });
+export const startStudy = (requested) => begin("/api/studies", { yaml: caseText(), ...requested });
+
+async function begin(path, requested) {
+  const status = await post(path, requested);
   await watch(status.id, status);
 }
 
@@ -54,6 +58,7 @@ async function receive(status) {
   state.active.status = status;
   state.lost = false;
   notify("active");
+  if (status.study) showStudy(status);
   if (status.stage === "errors" && !status.over) await showEarly(status);
   if (!status.over || wasOver) return;
   stop();
@@ -61,7 +66,7 @@ async function receive(status) {
   list();
 }
 
-const hasResults = (status) => status.figures.length > 0;
+export const hasResults = (status) => status.study?.has_answer || status.figures.length > 0;
 
 // All values are there before their error bars, which are added when they come. Without this, a
 // long run would keep its answer back for a third of its time again.
@@ -75,11 +80,22 @@ async function showEarly(status) {
 
 let latest = null;
 export async function show(id, known = null) {
-  const request = (latest = {}), found = await loaded(id, known);
+  const request = (latest = {}), status = known ?? (await get(`/api/runs/${id}`));
   if (request !== latest) return; // an answer that came late
+  if (status.study) { showStudy(status); return; }
+  const found = await loaded(id, status);
+  if (request !== latest) return;
   state.shown = found;
   remember();
   notify("shown");
+}
+
+// The answer of a study grows with its runs.
+function showStudy(status) {
+  if (!status.study.has_answer && state.study?.id !== status.id) return;
+  state.study = { id: status.id, status };
+  remember();
+  notify("study");
 }
 
 export async function refer(id) {
@@ -103,7 +119,7 @@ export async function resume(id) {
 
 export async function forget(id) {
   await remove(`/api/runs/${id}`);
-  for (const role of ["active", "shown", "reference"])
+  for (const role of ["active", "shown", "reference", "study"])
     if (state[role]?.id === id) {
       if (role === "active") stop();
       state[role] = null;

@@ -117,6 +117,22 @@ export function keysOf(node, { requiredFirst = true } = {}) {
     .sort((a, b) => (requiredFirst ? b.required - a.required : 0) || rank(a.key) - rank(b.key));
 }
 
+// Keys with a single value under a part of a case, with the path, the kind and the value of each:
+// those that are set, and quantities and numbers that may be.
+export function leaves(node, value, path = []) {
+  const inside = (each, entry, ...steps) => leaves(each, entry, [...path, ...steps]);
+  if (node.kind === "group" && (value !== undefined || !path.length)) return keysOf(node).flatMap(({ key, node: each }) => inside(each, value?.[key], key));
+  if (node.kind === "list" && Array.isArray(value)) return value.flatMap((entry, index) => inside(node.item, entry, index));
+  if (node.kind === "variants" && Array.isArray(value)) return value.flatMap((entry, index) => inside({ ...node, sum: false }, entry, index));
+  if (node.kind === "variants" && value !== null && typeof value === "object") {
+    const option = node.options.get(value[node.tag]);
+    return option ? leaves(option, value, path) : [];
+  }
+  const isSet = value !== undefined && value !== null && typeof value !== "object";
+  const isOpen = value === undefined && (node.kind === "number" || (node.kind === "text" && node.dimension !== null));
+  return isSet || isOpen ? [{ path, node, value }] : [];
+}
+
 // Initial value of a required key.
 export function startOf(node) {
   if (node.default !== undefined && node.default !== null && node.kind !== "text") return node.default;

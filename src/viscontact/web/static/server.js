@@ -39,10 +39,14 @@ function found() {
   connection.dispatchEvent(new Event("back"));
 }
 
+// A case that is half written has problems: an answer that is expected, which no browser reports as
+// an error. The server marks it by the same header.
+const PROBLEMS = "X-Problems";
+
 async function request(path, options) {
   let answer;
   try {
-    answer = await fetch(path, options);
+    answer = await fetch(path, { ...options, headers: { ...options?.headers, [PROBLEMS]: "expected" } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     lost("gone");
@@ -53,6 +57,8 @@ async function request(path, options) {
     throw refused(401, "The server asks for its token, see above.");
   }
   found();
+  const problems = answer.headers.get(PROBLEMS);
+  if (problems) throw new Refused(Number(problems), (await answer.json()).problems);
   if (answer.ok) return answer;
   const body = await answer.json().catch(() => ({}));
   throw body.problems ? new Refused(answer.status, body.problems) : refused(answer.status, statusText(answer));

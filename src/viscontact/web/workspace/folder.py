@@ -35,14 +35,24 @@ _SHIPPED = (".npz", ".csv")
 
 
 @dataclass(frozen=True)
+class StudyEntry:
+    """Command of a study, which makes many runs."""
+
+    command: Literal["run", "design"]
+    options: tuple[str, ...]  # of the command line, with values as they were typed
+    keys: tuple[str, ...]  # that differ between the runs
+    workers: int  # runs at the same time
+
+
+@dataclass(frozen=True)
 class RunEntry:
-    """Entry of a run, stored in its directory: its request, its size and its state."""
+    """Entry of a run or a study, stored in its directory: its request, its size and its state."""
 
     title: str
     quality: str
     created: str
     settings: tuple[str, ...]
-    instants: int | None  # None for adaptive steps
+    instants: int | None  # None for adaptive steps; of a study its runs, or the most of them
     end: float  # last instant [s] or largest speed [m/s]
     work: float  # cells times steps [-]
     memory: float  # needed [bytes]
@@ -53,6 +63,7 @@ class RunEntry:
     over: Literal["time", "speed"] = "time"
     begin: float = 0.0
     resumable: bool = True  # after a failure; entries of earlier versions do not say
+    study: StudyEntry | None = None
 
 
 _ENTRY = TypeAdapter(RunEntry)
