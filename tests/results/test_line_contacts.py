@@ -16,6 +16,7 @@ from returned import some
 from viscontact.case import read_case
 from viscontact.cli import main
 from viscontact.drawing.content.map import maps_at
+from viscontact.drawing.plotly.sections import sections
 from viscontact.plot import history
 from viscontact.reference import hertz_line
 from viscontact.report.page import report_page
@@ -121,6 +122,9 @@ def test_report_of_an_automatic_grid_shows_a_strip_in_its_true_shape() -> None:
     maps = maps_at(pressed, None, "pressure-map")
     assert np.ptp(maps.window.x) == close_to(np.ptp(maps.window.y))
     assert np.nanmax(maps.cells(0, 100)) == close_to(float(pressed.peak_pressure[-1]), rel=1e-6)
+    # Nothing varies along the strip.
+    names = [figure.layout.meta["name"] for figure in sections(maps)]
+    assert names == ["section-y"]
     page = report_page(pressed)
     assert "Width of the strip" in page
     assert "Contact area" not in page

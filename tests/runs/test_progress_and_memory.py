@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,9 +11,11 @@ import pytest
 
 from closeness import close_to
 from viscontact.bodies.grid import Grid
-from viscontact.bodies.indenters import FlatPunch
+from viscontact.bodies.indenters import FlatPunch, Paraboloid
 from viscontact.bodies.laws import Zener
 from viscontact.bodies.materials.material import Material
+from viscontact.drawing.content.indenter_facts import facts
+from viscontact.drawing.content.shape import shape_of
 from viscontact.runs import forecast
 from viscontact.runs.check_report import drawn_size, warnings_of
 from viscontact.runs.processes.request import RunRequest
@@ -63,6 +66,16 @@ def test_body_that_ends_a_little_beyond_the_grid_is_drawn_with_its_end() -> None
         contact = SimpleNamespace(indenter=FlatPunch(radius))
         run = SimpleNamespace(grid=Grid((8, 8), (2e-3, 2e-3)), contact=contact)
         assert drawn_size(run) == close_to((extent, extent), rel=2e-3)
+
+
+def test_body_without_end_is_drawn_as_far_along_as_across() -> None:
+    cylinder, grid = Paraboloid(math.inf, 5e-3), Grid((1, 64), (1.0, 2e-3), (True, False))
+    run = SimpleNamespace(grid=grid, contact=SimpleNamespace(indenter=cylinder))
+    assert drawn_size(run) == close_to((2e-3, 2e-3))
+    sections = shape_of(cylinder, (2e-3, 2e-3), 9).sections
+    texts = list(facts(cylinder, sections, (), (0.0, 0.0, 1.0, 1e-3), "contact"))
+    assert texts[0] == "Cylinder along x, radius 5 mm"
+    assert texts[-1] == "shaded: contact, 1 mm wide"
 
 
 @pytest.mark.parametrize(("along", "is_warned"), [(5.0, True), (8.0, False)])

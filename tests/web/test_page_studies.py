@@ -86,12 +86,12 @@ def test_a_study_survives_a_reload_and_is_cancelled_and_continued(page: Any) -> 
     assert "cancelled after" in page.inner_text("#progress-text")
     page.wait_for_selector("#study-table tbody tr")
     page.click("#resume")
-    until_studied(page)
     page.wait_for_function(
         "() => [...document.querySelectorAll('#study-table td:nth-child(2)')]"
-        ".every((cell) => cell.textContent === 'done')"
+        ".every((cell) => cell.textContent === 'done')",
+        timeout=90_000,
     )
-    assert page.is_hidden("#progress")
+    page.wait_for_selector("#progress", state="hidden")
 
 
 def test_a_design_minimises_a_key_that_keeps_a_limit(page: Any) -> None:

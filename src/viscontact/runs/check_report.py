@@ -33,6 +33,8 @@ def verdict(prepared: PreparedRun, expected: Forecast) -> str:
 def drawn_size(run: Analysis[Any, Any]) -> tuple[float, float]:
     """Extents of the drawn region around the origin [m]: the grid, and nearby ends of the body."""
     size = list(run.grid.size_about_origin)
+    if run.grid.line_length is not None:  # the body is the same everywhere along its period
+        size[0] = min(size)
     for axis in (0, 1):
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
         places = np.zeros((2, 2, beyond.size))

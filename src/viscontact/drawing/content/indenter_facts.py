@@ -45,8 +45,12 @@ def facts(
         numbers = ", ".join(format_compact(float(unit(level)), 2) for level in levels)
         yield f"thin lines: gap of {numbers} {unit.symbol}"
     if contact is not None:
-        extents = " × ".join(length(extent, digits=3) for extent in contact[2:])
-        yield f"shaded: extent of the {shaded}, {extents}"
+        along, across = (length(extent, digits=3) for extent in contact[2:])
+        drawn = sections[0].position
+        if contact[2] > 2 * (drawn[-1] - drawn[0]):  # a strip, of which a part is drawn
+            yield f"shaded: {shaded}, {across} wide"
+        else:
+            yield f"shaded: extent of the {shaded}, {along} × {across}"
 
 
 def in_lines(texts: Iterator[str], characters: int) -> str:
@@ -89,6 +93,8 @@ def _names(indenter: Indenter, along: Cut) -> Iterator[str]:
 
 
 def _with_sizes(indenter: Indenter) -> str:
+    if isinstance(indenter, Paraboloid) and math.isinf(indenter.radius_x):
+        return f"Cylinder along x, radius {length(indenter.radius_y)}"
     kind = in_plain_words(type(indenter).__name__).capitalize()
     sizes = dict(list(argument_rows(describe(indenter)))[1:])
     if isinstance(indenter, Roller):

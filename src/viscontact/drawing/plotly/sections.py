@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import plotly.graph_objects as go
 
 from viscontact.drawing.content.look import LIGHT, Look
@@ -13,8 +14,10 @@ from viscontact.units.formatting import ReadableUnit
 
 
 def sections(maps: Maps, look: Look = LIGHT) -> list[go.Figure]:
-    """Draw the sections along x and y."""
-    return [draw_section(maps, "x", look), draw_section(maps, "y", look)]
+    """Draw the sections along x and y; of a line contact, which is uniform along x, that across."""
+    across = draw_section(maps, "y", look)
+    varies = any(np.ptp(each.pressure, axis=0).any() for each in maps.snapshots)
+    return [draw_section(maps, "x", look), across] if varies else [across]
 
 
 def draw_section(maps: Maps, along: Along, look: Look = LIGHT) -> go.Figure:

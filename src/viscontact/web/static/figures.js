@@ -58,7 +58,8 @@ async function drawAnswer(request, shown, reference) {
 function drawSurface({ surface, start, remarks }, row, isSame) {
   place("map-chapter").hidden = !surface.length;
   // A figure takes the width of its place, which is none while that is hidden.
-  place("line-load").parentElement.hidden = !surface.some(({ layout }) => layout.meta.name === "line-load");
+  for (const name of ["line-load", "section-x"])
+    place(name).parentElement.hidden = !surface.some(({ layout }) => layout.meta.name === name);
   drawPlaced(surface, ["map", "section-x", "section-y", "line-load"], "surface-panels");
   if (!surface.length) return;
   const slider = place("instant-slider"), last = surface[0].frames.length - 1;

@@ -98,7 +98,7 @@ function group(path, node) {
   const shown = keys.filter((each) => !tabled.includes(each));
   const later = shown.filter(({ key, required }) => !required && LATER.has(key) && given[key] === undefined);
   const first = shown.filter((each) => !later.includes(each));
-  const draw = (each) => part([...path, each.key], each);
+  const draw = (each) => (each.other ? spelt(path, each) : part([...path, each.key], each));
   const ahead = first.filter((each) => each.required && each.node.kind !== "choice");
   const behind = first.filter((each) => !ahead.includes(each));
   const names = later.map(({ key }) => titleOf(key).toLowerCase()).join(", ");
@@ -108,6 +108,32 @@ function group(path, node) {
     behind.map(draw),
     later.length > 0 && fold(`${dotted(path)} more`, false, "more",
       [make("span", { textContent: `More: ${names}` })], later.map(draw)));
+}
+
+// A radius, or the diameter in its place.
+function spelt(path, each) {
+  const { key, node } = each.other, name = `${dotted([...path, key])} in use`;
+  const isOther = valueAt([...path, key]) !== undefined || (opened.has(name) && valueAt([...path, each.key]) === undefined);
+  const [now, then] = isOther ? [each.other, each] : [each, each.other];
+  const exchange = () => {
+    const text = valueAt([...path, now.key]);
+    setValue([...path, now.key], undefined);
+    setValue([...path, then.key], scaled(text, isOther ? 0.5 : 2));
+    if (isOther) opened.delete(name); else opened.add(name);
+    changed("structure");
+  };
+  const box = field([...path, now.key], isOther ? node : each.node, each.required);
+  box.querySelector(".control").append(make("button", {
+    type: "button", class: "small", textContent: `as ${titleOf(then.key).toLowerCase().replace("counter ", "")}`,
+    "aria-label": `Write the ${titleOf(now.key).toLowerCase()} as a ${titleOf(then.key).toLowerCase()}`, onclick: exchange,
+  }));
+  return box;
+}
+
+// A quantity times a factor, with its unit; none if it is none.
+function scaled(text, factor) {
+  const [, number, unit] = String(text ?? "").match(/^\s*(\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*)$/i) ?? [];
+  return number === undefined ? undefined : `${Number((factor * number).toPrecision(12))} ${unit}`.trim();
 }
 
 // One shape, or a sum of shapes.

@@ -7,7 +7,7 @@ export const START = "roller-dogbone";
 // Sections and keys that come first, in this order; others follow in the order of the schema.
 export const FIRST = [
   "title", "indenter", "thickness", "material", "load", "time",
-  "file", "points", "sentences", "force", "approach", "mean", "amplitude",
+  "file", "points", "sentences", "force", "line_load", "approach", "mean", "amplitude",
   "radius", "half_length", "shear_modulus", "youngs_modulus",
 ];
 
@@ -27,7 +27,7 @@ export const FILLED = {
 };
 // The alternatives.
 export const INSTEAD = {
-  force: ["approach", "mean_pressure"], mean: ["approach"], shear_modulus: ["youngs_modulus"],
+  force: ["approach", "mean_pressure", "line_load"], mean: ["approach", "line_load"], shear_modulus: ["youngs_modulus"],
   poisson_ratio: ["bulk_modulus"], points: ["file", "sentences", "mean_pressure"], wavelength_x: ["wavelength_y"],
   tilt_y: ["tilt_y", "eccentricity_y"],
 };
@@ -38,10 +38,18 @@ export const APART = { half_length: ["radius"], half_width: ["radius"] };
 
 // Values that go with a kind of a section, by the kind: set where the kind is chosen, and put back
 // where it is left out. A null leaves the key out. A body on an axle does not tilt, and steps of a
-// cell of way are exact in place. Steady motion has no time.
+// cell of way are exact in place. Steady motion has no time. A cylinder without end has an automatic
+// grid, and what presses it is a force per length, in place of a force.
 const ON_AXLE = { "load.tilt_y": 0 };
 const BY_CELLS = { "time.spacing": "cells", "time.steps": null, "time.first": null, "time.tolerance": null };
+const PER_LENGTH = {
+  grid: null, "load.line_load": { value: "40 N/mm", inPlaceOf: ["force", "approach", "mean"] },
+  "load.eccentricity_x": null, "load.tilt_x": null,
+};
+const AS_FORCE = { "load.force": { value: "10 N", inPlaceOf: ["line_load"], unless: "grid.periodic" } };
+// Those of the empty name go with all other kinds.
 export const WITH = {
+  indenter: { cylinder: PER_LENGTH, "": AS_FORCE },
   motion: {
     travel: { ...ON_AXLE, ...BY_CELLS }, reciprocating: { ...ON_AXLE, ...BY_CELLS },
     steady: { ...ON_AXLE, time: null, "output.fields": null },

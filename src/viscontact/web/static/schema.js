@@ -69,12 +69,15 @@ function array(part) {
   return { kind: item.kind === "choice" ? "set" : "list", item };
 }
 
-// A group without the aliases of its keys. One of a key and its aliases is required under allOf.
+// A group without the aliases of its keys, but diameters, which are typed in place of radii. One of a
+// key and its aliases is required under allOf.
 function group(part) {
   const own = Object.entries(part.properties).filter(([, each]) => !each["x-alias-of"]);
+  const diameters = Object.entries(part.properties).filter(([key, each]) => each["x-alias-of"] && key.endsWith("diameter"));
+  const others = Object.fromEntries(diameters.map(([key, each]) => [each["x-alias-of"], [key, each]]));
   const choices = (part.allOf ?? []).map((rule) => rule.oneOf ?? rule.anyOf ?? []);
   const required = [...(part.required ?? []), ...choices.flatMap((choice) => choice[0]?.required ?? [])];
-  return { kind: "group", properties: Object.fromEntries(own), required };
+  return { kind: "group", properties: Object.fromEntries(own), others, required };
 }
 
 // The key whose constant identifies one of several groups.
@@ -112,16 +115,23 @@ function variants(parts, groups) {
 export function keysOf(node, { requiredFirst = true } = {}) {
   const rank = (key) => (FIRST.includes(key) ? FIRST.indexOf(key) : FIRST.length);
   return Object.entries(node.properties)
-    .map(([key, part]) => ({ key, node: understand(part), required: node.required.includes(key) }))
+    .map(([key, part]) => ({ key, node: understand(part), required: node.required.includes(key), other: otherOf(node, key) }))
     .filter((each) => each.node.kind !== "constant")
     .sort((a, b) => (requiredFirst ? b.required - a.required : 0) || rank(a.key) - rank(b.key));
+}
+
+// The other spelling of a key, such as a diameter of a radius.
+function otherOf(node, key) {
+  const [name, part] = node.others?.[key] ?? [];
+  return name && { key: name, node: understand(part) };
 }
 
 // Keys with a single value under a part of a case, with the path, the kind and the value of each:
 // those that are set, and quantities and numbers that may be.
 export function leaves(node, value, path = []) {
   const inside = (each, entry, ...steps) => leaves(each, entry, [...path, ...steps]);
-  if (node.kind === "group" && (value !== undefined || !path.length)) return keysOf(node).flatMap(({ key, node: each }) => inside(each, value?.[key], key));
+  if (node.kind === "group" && (value !== undefined || !path.length)) return keysOf(node).flatMap(({ key, node: each, other }) =>
+    (other && value?.[other.key] !== undefined ? inside(other.node, value[other.key], other.key) : inside(each, value?.[key], key)));
   if (node.kind === "list" && Array.isArray(value)) return value.flatMap((entry, index) => inside(node.item, entry, index));
   if (node.kind === "variants" && Array.isArray(value)) return value.flatMap((entry, index) => inside({ ...node, sum: false }, entry, index));
   if (node.kind === "variants" && value !== null && typeof value === "object") {
@@ -153,8 +163,9 @@ export function startOfVariant(node, tag, before) {
 
 function startOfGroup(node, before) {
   const values = {};
-  for (const { key, node: child, required } of keysOf(node)) {
+  for (const { key, node: child, required, other } of keysOf(node)) {
     const old = before[key];
+    if (other && before[other.key] !== undefined) { values[other.key] = before[other.key]; continue; }
     const isApart = !required && (APART[key] ?? []).some((other) => other in values);
     if (old !== undefined && fits(child, old) && !isApart) values[key] = old;
     else if (required) values[key] = startOf(child);

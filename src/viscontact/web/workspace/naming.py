@@ -14,7 +14,7 @@ from viscontact.runs.directory.differences import differences
 _SIZES = ("radius", "radius_x", "half_angle", "semi_axis_x", "ring_radius", "amplitude", "file")
 _MODULI = ("shear_modulus", "youngs_modulus", "file")
 #: Keys of the load's level.
-_LEVELS = ("force", "approach", "mean_pressure", "mean")
+_LEVELS = ("force", "line_load", "approach", "mean_pressure", "mean")
 _SECTIONS = ("indenter", "indenter_material", "material", "load", "time")
 #: Words for keys that are ambiguous without their section.
 _KEYS = {"grid.shape": "cells", "grid.size": "extents", "time.end": "until"}
