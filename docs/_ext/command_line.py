@@ -8,7 +8,7 @@ from typing import Any
 
 import typer
 
-from viscontact.cli.shell import app
+from viscontact.cli.shell import application
 
 #: Input to type within a help text: an option, or text in quotation marks.
 _TYPED = re.compile(r"(?<!\S)(--[a-z][\w-]*)|(?<!\w)'([^']+)'(?!\w)")
@@ -27,7 +27,7 @@ def command_line_reference() -> str:
     >>> "viscontact check [OPTIONS] CASE.yaml" in command_line_reference()
     True
     """
-    commands = typer.main.get_command(app).commands
+    commands = typer.main.get_command(application()).commands
     return "\n\n".join("\n".join(_section(name, command)) for name, command in commands.items())
 
 

@@ -19,7 +19,7 @@ import typer
 import viscontact as vc
 from reports_without_pictures import without_pictures
 from viscontact.cli import main
-from viscontact.cli.shell import app
+from viscontact.cli.shell import application
 from viscontact.cli.terminal.bars import bars_of_runs
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.drawing.plotly.responses import responses
@@ -143,7 +143,9 @@ COMMANDS: tuple[tuple[list[str], int], ...] = (
 
 
 def test_all_commands_are_tried() -> None:
-    assert {words[0] for words, _ in COMMANDS} == set(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
+    assert {words[0] for words, _ in COMMANDS} == set(
+        typer.main.get_command(application()).commands
+    )  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize(

@@ -15,9 +15,9 @@ import typer
 import viscontact as vc
 from project.documented import PAGES, ROOT, Reader, blocks, commands, pictures, why_not_run, words
 from returned import some
-from viscontact.cli.shell import app
+from viscontact.cli.shell import application
 
-COMMANDS = typer.main.get_group(app).commands
+COMMANDS = typer.main.get_group(application()).commands
 
 ZENER = """
 ```{code-block} yaml

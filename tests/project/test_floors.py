@@ -114,8 +114,10 @@ def targets(node: ast.AST, module: str, is_package: bool) -> list[str]:
 
 @cache
 def imports(name: str, path: Path) -> tuple[Import, ...]:
-    """Return every import of a file, which is read once."""
+    """Return every import of a file, which is read once, and those that its stub puts off."""
     source = path.read_text(encoding="utf-8")
+    stub = path.with_suffix(".pyi")  # of a package whose names are loaded at their first use
+    source += stub.read_text(encoding="utf-8") if stub.exists() else ""
     # Most nodes are expressions, which import by a call only.
     calls = "import_module" in source or "__import__" in source
 

@@ -21,7 +21,7 @@ import viscontact
 import viscontact.plot
 from returned import some
 from viscontact.case.sections import case_schema
-from viscontact.cli.shell import app
+from viscontact.cli.shell import application
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -160,7 +160,7 @@ def test_every_key_of_a_case_file_says_what_it_means() -> None:
 def test_the_reference_of_commands_lists_every_command_and_option() -> None:
     page = extension("command_line").command_line_reference()
     sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
-    commands = typer.main.get_command(app).commands
+    commands = typer.main.get_command(application()).commands
     assert [section.split("\n")[0] for section in sections] == [f"viscontact {n}" for n in commands]
     for section, command in zip(sections, commands.values(), strict=True):
         for parameter in command.params:

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from viscontact import case
 from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.bodies.surfaces import Surface
 from viscontact.case.document import Document
-from viscontact.case.error_messages import object_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
 from viscontact.mechanics.problem.problem import Problem
@@ -132,7 +132,7 @@ class Case(DisplayableGroup, Problem):
 
     def error(self, why: str) -> CaseError:
         """Return an error of the run as an error at the key that it names."""
-        return CaseError(object_problem(self.document, (), why))
+        return CaseError(case.error_messages.object_problem(self.document, (), why))
 
 
 def _format_rows(case: Case) -> dict[str, str]:

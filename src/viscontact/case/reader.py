@@ -10,11 +10,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from viscontact import case
 from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case.case import Case
 from viscontact.case.document import Document, as_written, document_of, read_document
-from viscontact.case.error_messages import corrected, problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.shapes import combined
@@ -111,12 +111,14 @@ def _check_document(document: Document) -> CaseFile:
         if known:
             raise CaseError(*known)
         return found
-    if guess := corrected(document.data, findings):
+    if guess := case.error_messages.corrected(document.data, findings):
         try:
             _validate(document, guess)
         except ValidationError as error:
             findings += error.errors()
-    problems = dict.fromkeys(problem(document, each) for each in findings[:_MOST_PROBLEMS])
+    problems = dict.fromkeys(
+        case.error_messages.problem(document, each) for each in findings[:_MOST_PROBLEMS]
+    )
     problems |= dict.fromkeys(known)
     more = len(findings) - _MOST_PROBLEMS
     raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))

@@ -15,14 +15,15 @@ from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import LEAKAGE, ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.results import leakage
 from viscontact.results.descriptions import describe
-from viscontact.results.leakage.of_state import CaseLeakage, leakage_memory, leakage_seconds
 from viscontact.results.run_axis import RunAxis
-from viscontact.simulation.accuracy.coarser_results import History
-from viscontact.simulation.accuracy.error_bars import ErrorBars
 
 if TYPE_CHECKING:
+    from viscontact.results.leakage.of_state import CaseLeakage
     from viscontact.runs.forecast import Forecast
+    from viscontact.simulation.accuracy.coarser_results import History
+    from viscontact.simulation.accuracy.error_bars import ErrorBars
 
 
 class States(Protocol):
@@ -161,14 +162,14 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     @property
     def leakage_memory(self) -> float:
         """Memory of the flow through the gap [bytes]."""
-        return 0.0 if self.leakage is None else leakage_memory(self._cells)
+        return 0.0 if self.leakage is None else leakage.leakage_memory(self._cells)
 
     @property
     def leakage_seconds(self) -> float:
         """Predicted time of the flow at all instants whose fields are kept [s]."""
         if self.leakage is None:
             return 0.0
-        return len(self._kept) * self.leakage.directions * leakage_seconds(self._cells)
+        return len(self._kept) * self.leakage.directions * leakage.leakage_seconds(self._cells)
 
     @property
     def _cells(self) -> int:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.simulation.checks.adhesive_limits import expected_tail_warnings
+from viscontact.simulation import checks
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.half_space_theory import (
     body_warnings,
@@ -56,7 +56,7 @@ def predicted_warnings(
     """
     warnings = setup_warnings(run) | _range_warnings(run.problem) | _step_warnings(run.problem)
     if run.law is not None:
-        warnings |= expected_tail_warnings(run.law, run.open_gap, run.grid)
+        warnings |= checks.adhesive_limits.expected_tail_warnings(run.law, run.open_gap, run.grid)
     return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
 
 

@@ -15,7 +15,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.run_memory import run_memory
-from viscontact.simulation.accuracy.coarser_runs import usual_coarsening
+from viscontact.simulation.accuracy.coarser_ratios import usual_coarsening
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.simulation.transient.setup import RunSetup

@@ -6,35 +6,29 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from viscontact import results
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactEvent, ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.results.enlarged_grid import enlargements
 from viscontact.results.run_axis import TIME
 from viscontact.runs.analysis import Analysis
 from viscontact.runs.grid_error import grid_error_rows
 from viscontact.runs.progress_made import progress_made
 from viscontact.runs.run_memory import run_memory
-from viscontact.simulation.accuracy.coarser_results import History
-from viscontact.simulation.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
-from viscontact.simulation.checks.adhesive_limits import adhesion_rows
-from viscontact.simulation.transient.march import March
-from viscontact.simulation.transient.provenance import (
-    contact_event_attributes,
-    describe_problem,
-    run_attributes,
-)
+from viscontact.simulation import accuracy, checks, transient
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
 # Forecasts import what a simulation in Python does without.
 if TYPE_CHECKING:
     from viscontact.runs.forecast import Forecast
+    from viscontact.simulation.accuracy.coarser_results import History
+    from viscontact.simulation.accuracy.error_bars import ErrorBars
 
 
-class OverTime(Analysis[RunSetup, March]):
+class OverTime(Analysis[RunSetup, "transient.March"]):
     """Contact over time, in steps."""
 
     axis = TIME
@@ -83,11 +77,11 @@ class OverTime(Analysis[RunSetup, March]):
         found = forecast(self.setup, errors=self.errors)
         return replace(found, memory=self.memory, seconds=self.seconds)
 
-    def states(self, saved: RestartData | None = None) -> March:
+    def states(self, saved: RestartData | None = None) -> transient.March:
         """Return the march through the steps."""
-        return March(self.setup, saved)
+        return transient.March(self.setup, saved)
 
-    def part(self, states: March, state: ContactState) -> float:
+    def part(self, states: transient.March, state: ContactState) -> float:
         """Finished part of the instants, or of the time where steps are adaptive."""
         if state.outcome is Outcome.PULLED_OFF:
             return 1.0
@@ -102,35 +96,35 @@ class OverTime(Analysis[RunSetup, March]):
 
     def error_bars(
         self,
-        states: March,
+        states: transient.March,
         history: History,
         grid: Grid,
         issued: Sequence[str],
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:
         """Errors of the scalars, from coarser runs."""
-        return error_bars(self.setup.on(grid), history, on_step, issued=issued)
+        return accuracy.error_bars.error_bars(self.setup.on(grid), history, on_step, issued=issued)
 
-    def error_bars_so_far(self, states: March, history: History) -> ErrorBars:
+    def error_bars_so_far(self, states: transient.March, history: History) -> ErrorBars:
         """Errors that are not known before the end."""
-        return unknown_bars(history)
+        return accuracy.error_bars.unknown_bars(history)
 
     @property
     def description(self) -> dict[str, Any]:
         """Problem and grid."""
-        return describe_problem(self.contact, self.grid)
+        return transient.describe_problem(self.contact, self.grid)
 
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes that every result carries."""
-        return run_attributes(self.setup)
+        return transient.run_attributes(self.setup)
 
     def attributes_after(
         self, states: Sequence[ContactState], described: Mapping[str, Any]
     ) -> dict[str, Any]:
         """Enlargements of the grid, and events of bodies that adhere."""
         events = [event for state in states for event in state.events]
-        found = {"grid_enlarged": "\n".join(enlargements(self.grid, states))}
+        found = {"grid_enlarged": "\n".join(results.enlargements(self.grid, states))}
         return found | self.event_attributes(events, self.attributes | dict(described))
 
     def event_attributes(
@@ -139,7 +133,7 @@ class OverTime(Analysis[RunSetup, March]):
         """Attributes of the events of bodies that adhere, with errors described; none of others."""
         if self.contact.adhesion is None:
             return {}
-        return contact_event_attributes(events, described)
+        return transient.contact_event_attributes(events, described)
 
     @property
     def longest_creep(self) -> float:
@@ -163,5 +157,9 @@ class OverTime(Analysis[RunSetup, March]):
             steps = f"as needed for an error of {100 * self.contact.adaptive.tolerance:g} %"
         end = format_quantity(self.contact.end, "s")
         run = self.setup
-        sticks = [] if run.law is None else adhesion_rows(run.law, run.problem, run.grid)
+        sticks = (
+            []
+            if run.law is None
+            else checks.adhesive_limits.adhesion_rows(run.law, run.problem, run.grid)
+        )
         return [*grid_error_rows(run), ("time steps", f"{steps}, up to t = {end}"), *sticks]

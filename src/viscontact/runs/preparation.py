@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from viscontact import runs
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.results.leakage.of_state import CaseLeakage
+from viscontact.results import leakage
 from viscontact.runs.analysis import Analysis
-from viscontact.runs.forecast import Forecast
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.over_time import OverTime
 from viscontact.runs.run_memory import least_memory
-from viscontact.simulation.steady_motion.preparation import prepare
-from viscontact.simulation.steady_motion.problem import steady_problem
+from viscontact.simulation import steady_motion
 from viscontact.simulation.transient.found_events import carried_out
 from viscontact.simulation.transient.setup import prepare_run
 from viscontact.units.formatting import format_number
+
+if TYPE_CHECKING:
+    from viscontact.runs.forecast import Forecast
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +53,13 @@ def analysis_of(problem: Problem, threads: int = 1, *, errors: bool) -> Analysis
     """Prepare a problem, whose load is known, over time or over speed as its motion requires."""
     fluid = None
     if isinstance(problem, Case) and problem.leakage:
-        fluid = CaseLeakage(problem.leakage, problem.tolerance)
+        fluid = leakage.CaseLeakage(problem.leakage, problem.tolerance)
     if isinstance(motion := problem.motion, SteadyMotion):
-        return OverSpeed(prepare(steady_problem(problem, motion), threads), errors, fluid)
+        return runs.OverSpeed(
+            steady_motion.prepare(steady_motion.steady_problem(problem, motion), threads),
+            errors,
+            fluid,
+        )
     return OverTime(prepare_run(problem, threads), errors, fluid)
 
 

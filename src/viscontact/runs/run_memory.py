@@ -7,9 +7,9 @@ from itertools import accumulate
 
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.mechanics.time_integration.boltzmann_sum import BLOCK_STEPS
+from viscontact.mechanics import time_integration
+from viscontact.simulation import transient
 from viscontact.simulation.transient.setup import RunSetup
-from viscontact.simulation.transient.slip_step import symmetry_of
 
 #: Memory of the program [bytes]. It takes 120 to 190 MB, since the buffers of the linear algebra
 #: library differ between processors.
@@ -71,7 +71,7 @@ def run_memory(run: RunSetup) -> float:
     for plan in (run.hereditary, *run.other_terms):
         fields += plan.fields_kept
         if not isinstance(plan.compliance, SeriesCompliance):  # with the sums computed ahead
-            fields += min(plan.rows, BLOCK_STEPS)
+            fields += min(plan.rows, time_integration.BLOCK_STEPS)
             further += ARRAYS_OF_SUM
     fields += FIELDS_OF_TERM * len(run.other_terms)
     creeps = not run.problem.surface.creep.is_elastic
@@ -81,7 +81,7 @@ def run_memory(run: RunSetup) -> float:
     if run.problem.friction is not None:
         kept_there = sum(plan.fields_kept for plan in run.shear_plans)
         whole += ARRAYS_OF_FRICTION + FRICTION_ARRAYS_PER_TERM * kept_there
-        symmetry = symmetry_of(run)
+        symmetry = transient.symmetry_of(run)
         share = 1.0 if symmetry is None else 0.5 ** sum(symmetry.mirrored)
         whole += share * ARRAYS_OF_SLIP_SEARCH
         if not (run.problem.motion.stands or run.problem.surface.creep.is_elastic):

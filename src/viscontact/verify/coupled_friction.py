@@ -67,7 +67,7 @@ def _creep(cells: int) -> tuple[Comparison, ...]:
     return (single(float(law(3.0) / law(0.0)), last.approach / first.approach),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "flat punch that sticks",
         "Mossakovski 1954, Spence 1968",

@@ -102,7 +102,7 @@ def _clamped(steps: int) -> tuple[Comparison, ...]:
     return (single(relaxed * first.tangential_force_x, last.tangential_force_x),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "sphere on a Zener body, pressed obliquely",
         "Mindlin & Deresiewicz 1953, by correspondence",

@@ -83,7 +83,7 @@ def _maximum(state: ContactState, edge: bool) -> float:
     return float((state.pressure[middle] if edge else state.pressure).max())
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "middle of a long logarithmic roller",
         "Hertz 1882, Johnson 1985",

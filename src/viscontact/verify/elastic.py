@@ -87,7 +87,7 @@ def _energy(cells: int) -> tuple[Comparison, ...]:
     return (single(0.4 * FORCE * exact.approach, run.states[0].work),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "sphere",
         "Hertz 1882",

@@ -60,7 +60,7 @@ def _equal_lengths(cells: int) -> tuple[Comparison, ...]:
     )
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "edge of an incompressible body that ends",
         "Hetényi 1960",

@@ -108,7 +108,7 @@ def _roller(cells: int) -> tuple[Comparison, ...]:
     )
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     *(
         Case(
             f"flat punch, harmonic {control}, Zener",

@@ -187,7 +187,7 @@ def _energy(steps: int) -> tuple[Comparison, ...]:
     return (single((states[-1].friction_heat or 0.0) - (states[0].friction_heat or 0.0), work),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "sphere, pressed and pulled",
         "Cattaneo 1938, Mindlin 1949",

@@ -52,7 +52,7 @@ def _twisted(cells: int) -> tuple[Comparison, ...]:
     return (single(exact / half_space, on_layer.torque / on_rubber.torque),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "punch twisted on a layer",
         "Fredholm equation, Reissner & Sagoci 1944",

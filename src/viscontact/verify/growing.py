@@ -46,7 +46,7 @@ def _ramp(body: CreepingBody, cells: int) -> tuple[Comparison, ...]:
     )
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     *(
         Case(
             f"ball under a sudden force, {body.name}",

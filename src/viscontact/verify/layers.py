@@ -45,7 +45,7 @@ def _incompressible(cells: int) -> tuple[Comparison, ...]:
     return _ball(0.5, cells)
 
 
-CASES = tuple(
+CASES: tuple[Case, ...] = tuple(
     Case(
         f"sphere on a creeping layer, ν = {ratio}",
         "Fredholm equation, Lee & Radok 1960",

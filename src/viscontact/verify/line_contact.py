@@ -92,7 +92,7 @@ def _strip(cells: int) -> tuple[Comparison, ...]:
     return (with_mean_error(found),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "cylinder, periodic along it",
         "Hertz 1882, Johnson 1985",

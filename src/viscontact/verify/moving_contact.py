@@ -73,7 +73,7 @@ def _cycle(cells: int) -> tuple[Comparison, ...]:
     return (single(last.work + last.motion_work, last.heat),)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "cylinder from rest to steady motion",
         "Hunter 1961",

@@ -84,7 +84,7 @@ def _flat(cells: int) -> tuple[Comparison, ...]:
     return single(_FLAT_CROSSED, share), single(_WAVE**2, state.contact_area)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "straight waves, periodic",
         "Westergaard 1939",

@@ -186,7 +186,7 @@ def _punch(
     return Case(f"flat punch, {name}", reference, (Quantity(*quantity, *bounds),), levels, compare)
 
 
-CASES = (
+CASES: tuple[Case, ...] = (
     _punch(
         "held force, warming by WLF, Zener",
         (1e-8, 1e-8),

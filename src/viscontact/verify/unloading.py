@@ -137,7 +137,7 @@ _LEVELS = (12, 24, 48)
 _FORCE, _RADIUS = Quantity("force", "N", 1e-3, 3e-4), Quantity("contact radius", "m", 5e-3, 1.5e-3)
 _APPROACH = Quantity("approach", "m", 1e-3, 3e-4)
 
-CASES = (
+CASES: tuple[Case, ...] = (
     Case(
         "approach triangle, Zener",
         "Ting 1966",

@@ -7,7 +7,7 @@ import numpy as np
 import viscontact as vc
 from closeness import close_to
 from viscontact.simulation.accuracy.coarser_grids import coarser_grid
-from viscontact.simulation.accuracy.coarser_runs import usual_coarsening
+from viscontact.simulation.accuracy.coarser_ratios import usual_coarsening
 from viscontact.simulation.accuracy.coarser_steps import (
     _every_second,
     first_steps,

@@ -6,11 +6,14 @@ import sys
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
 
 from viscontact.cli.terminal.messages import say
 from viscontact.mechanics.state import ContactState
-from viscontact.simulation.transient.state_generator import Progress as Report
 from viscontact.units.formatting import format_quantity
+
+if TYPE_CHECKING:
+    from viscontact.simulation.transient.state_generator import Progress as Report
 
 #: A plain line is printed after this part of the work, or after this time [s].
 LINE_PART, _LINE_SECONDS = 0.1, 30.0

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.transforms import Field
+from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.convolution import Convolution
-from viscontact.mechanics.halfspace.end_correction import EndBasis, EndCorrection, end_basis
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
-from viscontact.mechanics.halfspace.strip_basis import StripRows, strip_basis
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     HalfSpaceResponse,
     SummedResponse,
     SurfaceResponse,
 )
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.halfspace.end_correction import EndBasis
 
 
 @dataclass(frozen=True)
@@ -88,14 +90,20 @@ def _bases_of_ends(
     if not rows or not any(free):
         return ()
     if before is not None and after is not None:
-        strip = StripRows(after - before, free)
+        strip = halfspace.strip_basis.StripRows(after - before, free)
         inside = range(rows.start - before, rows.stop - before)
         shared = (ratio, strip, inside, cell_size, width)
-        return tuple(strip_basis(*shared, odd=odd) for odd in strip.kinds)
+        return tuple(halfspace.strip_basis.strip_basis(*shared, odd=odd) for odd in strip.kinds)
     if before is not None:
-        return (end_basis(ratio, range(rows.start - before, rows.stop - before), cell_size),)
+        return (
+            halfspace.end_basis(ratio, range(rows.start - before, rows.stop - before), cell_size),
+        )
     assert after is not None  # at least one plane is given
-    return (end_basis(ratio, range(after - rows.stop, after - rows.start), cell_size).turned(),)
+    return (
+        halfspace.end_basis(
+            ratio, range(after - rows.stop, after - rows.start), cell_size
+        ).turned(),
+    )
 
 
 class Operator(Protocol):
@@ -168,7 +176,7 @@ class EndedConvolution:
         )
         own = slice(begin - ended.first, end - ended.first)
         self._corrections = [
-            EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
+            halfspace.EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
             for basis in ended.bases
         ]
 

@@ -25,15 +25,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.influence import FAR, influence_coefficient
-from viscontact.mechanics.halfspace.periodic_influence import periodic_influence_coefficient
-from viscontact.mechanics.halfspace.smooth_kernel import SmoothKernel, smooth_kernel
-from viscontact.mechanics.halfspace.strip_influence import strip_coefficient
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.halfspace.smooth_kernel import SmoothKernel
 
 #: Gauss nodes over each piece of a triangle, and along each edge of a cell far away.
 CORNER_RULE = np.polynomial.legendre.leggauss(24)
@@ -107,12 +109,12 @@ def periodic_layered_coefficient(
     table = np.zeros((nx // 2 + 1, y.size))
     places = np.arange(nx // 2 + 1, dtype=np.float64)[:, None] * dx
     if response.long_waves:
-        far = periodic_influence_coefficient(places, y[None, :], (dx, dy), nx * dx, datum)
+        far = halfspace.periodic_influence_coefficient(places, y[None, :], (dx, dy), nx * dx, datum)
         table += response.long_waves * far
     if math.isinf(response.length):
         return table
     if nx == 1:
-        return table + strip_coefficient(y, dy, response)
+        return table + halfspace.strip_coefficient(y, dy, response)
     period = nx * dx
     reach, cubic = _reach_of_rest(response, period)
     images = math.ceil(max(min(reach, NEAR * response.length), LEAST_IMAGES * period) / period)
@@ -144,7 +146,7 @@ def _images_beyond(
     """
     (reach, cubic), (x, y), (nodes, weights) = far, offsets, CELL_RULE
     end = max(reach, last)
-    kernel = smooth_kernel(response, 2 * (end + float(np.abs(y).max())))
+    kernel = halfspace.smooth_kernel.smooth_kernel(response, 2 * (end + float(np.abs(y).max())))
     excess = response.long_waves - response.short_waves
     north = y + nodes[:, None] * cell_size[1] / 2
 
@@ -175,7 +177,9 @@ def _images_beyond(
 def _reach_of_rest(response: SurfaceResponse, period: float) -> tuple[float, float]:
     """Distance up to which images of the rest are summed [m], and c of its decay c/r³ [m²]."""
     distances = response.length * np.geomspace(1.0, FARTHEST, 200)
-    kernel = smooth_kernel(response, max(2 * distances[-1], LEAST_IMAGES * period))
+    kernel = halfspace.smooth_kernel.smooth_kernel(
+        response, max(2 * distances[-1], LEAST_IMAGES * period)
+    )
     excess = response.long_waves - response.short_waves
     rest = np.pi * distances * kernel.value(distances) - excess
     least = max(REST_VANISHED, REST_DECAYED * min(response.long_waves, np.abs(rest).max()))
@@ -196,7 +200,9 @@ def correction_coefficient(
 ) -> Floats:
     """Integrals of Δ over cells at any offsets x [m] and of j < ny cells along y [m]."""
     dy, x = cell_size[1], np.abs(x)
-    kernel = smooth_kernel(response, table_reach(x, ny, cell_size, response.length))
+    kernel = halfspace.smooth_kernel.smooth_kernel(
+        response, table_reach(x, ny, cell_size, response.length)
+    )
     is_near = x <= FAR * max(cell_size)
     ny_near = min(ny, int(FAR * max(cell_size) / dy) + 1)
     y = np.arange(ny, dtype=np.float64) * dy

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,10 +37,10 @@ from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface as MeasuredSurface
 from viscontact.bodies.surfaces import indenter_of
 from viscontact.bodies.surfaces.topographies import is_topography
+from viscontact.mechanics import problem, time_integration
 from viscontact.mechanics.problem.expansion import ThickenedLoad, Thickening, thickening_of
 from viscontact.mechanics.problem.kept_fields import ALL_FIELDS, KeptFields
 from viscontact.mechanics.problem.series_body import Span, span_of
-from viscontact.mechanics.problem.shear_terms import ShearTerms, is_uncoupled, shear_terms
 from viscontact.mechanics.problem.surface import (
     SurfaceTerms,
     clock_of,
@@ -57,16 +58,14 @@ from viscontact.mechanics.state import (
     ROLLING,
     STAGE,
 )
-from viscontact.mechanics.time_integration.adaptive_steps import (
-    MIN_STEP_FRACTION,
-    AdaptiveSteps,
-    estimated_steps,
-)
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, TimeStep, plan_steps
 from viscontact.mechanics.time_integration.moving_times import CellTimes, moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.mechanics.time_integration.run_times import run_instants
 from viscontact.units.numbers import as_real
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.problem.shear_terms import ShearTerms
 
 #: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
 FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
@@ -246,9 +245,12 @@ class Problem:
     @cached_property
     def is_coupled(self) -> bool:
         """True if pressure and tractions along the surface act on each other."""
-        if self.friction is None or not self.friction.coupling:
-            return False
-        return not is_uncoupled(self.bodies)
+        return self.friction is not None and self.friction.coupling and self.may_be_coupled
+
+    @cached_property
+    def may_be_coupled(self) -> bool:
+        """True if pressure moves the surfaces against each other along themselves."""
+        return not problem.shear_terms.is_uncoupled(self.bodies)
 
     @property
     def parts(self) -> frozenset[str]:
@@ -296,7 +298,7 @@ class Problem:
     @cached_property
     def shear(self) -> ShearTerms:
         """Creep functions and responses of both bodies together to tractions along the surface."""
-        return shear_terms(self.bodies, self.clocks, self._spans)
+        return problem.shear_terms.shear_terms(self.bodies, self.clocks, self._spans)
 
     @cached_property
     def _spans(self) -> tuple[Span, ...]:
@@ -398,7 +400,7 @@ class Problem:
         chosen = self.chosen_steps
         if chosen is None:
             return float(len(self.planned_steps))
-        return estimated_steps(chosen, self.history, self.surface.creep)
+        return time_integration.estimated_steps(chosen, self.history, self.surface.creep)
 
     @property
     def chosen_steps(self) -> AdaptiveTimes | None:
@@ -408,16 +410,18 @@ class Problem:
         # Adhesive contacts are followed in steps of small changes of the force.
         return AdaptiveTimes(self.end or 1.0, ADHESIVE_STEP_TOLERANCE)
 
-    def steps(self, cell_size: tuple[float, float]) -> FixedSteps | AdaptiveSteps:
+    def steps(self, cell_size: tuple[float, float]) -> FixedSteps | time_integration.AdaptiveSteps:
         """Return the sequence of steps from the start, on cells of a size (dx, dy) [m]."""
         chosen = self.chosen_steps
         if chosen is None:
             return FixedSteps(self.planned_steps)
         creep, marks = self.surface.creep, self.motion.times_at_cells(cell_size)
-        return AdaptiveSteps(
+        return time_integration.AdaptiveSteps(
             *(chosen, self.instants, self.history, creep, marks, self.surface.clocks),
             shown=None if self.adaptive else self.instants,
-            least=MIN_STEP_FRACTION if self.adhesion is None else SHORTEST_ADHESIVE_STEP,
+            least=time_integration.MIN_STEP_FRACTION
+            if self.adhesion is None
+            else SHORTEST_ADHESIVE_STEP,
         )
 
     @cached_property

@@ -113,17 +113,6 @@ def shear_terms(
     return ShearTerms(tuple(terms), error)
 
 
-def refuse_sliding_layers(bodies: Sequence[Material | Layered]) -> None:
-    """Refuse layers that slide, which no force along the surface holds."""
-    for name, body in zip(("material", "indenter_material"), bodies, strict=False):
-        if isinstance(body, Layered) and not np.all(body.bonded):
-            raise ValueError(
-                f"{name}.bonded: a layer that slides on what is beneath carries no force along "
-                "the surface, so that a body on it has nothing to hold on to; bond the layers, or "
-                "leave friction out"
-            )
-
-
 def _terms_of_layers(
     body: Layered, clock: Clock, span: Span, sign: int
 ) -> tuple[list[ShearTerm], float]:

@@ -30,6 +30,7 @@ from viscontact.bodies.materials.compliance import (
 )
 from viscontact.bodies.materials.layers import Layered, materials_of, without_ends
 from viscontact.bodies.materials.material import Material
+from viscontact.mechanics import problem
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 from viscontact.mechanics.halfspace.surface_response import (
@@ -37,7 +38,6 @@ from viscontact.mechanics.halfspace.surface_response import (
     SummedResponse,
     SurfaceResponse,
 )
-from viscontact.mechanics.problem.separation import separate, stack_of
 from viscontact.mechanics.problem.series_body import ANY_TIMES, Span, is_series
 
 #: Relative difference of two creep functions that count as proportional.
@@ -138,7 +138,7 @@ def surface_of(
             clocked = SurfaceTerm(on_clock(new.compliance, clock), new.response)
             terms = _with_term(terms, clocked)
         if isinstance(body, Layered) and as_elastic(body) is None:
-            error = max(error, separate(body, span).error)
+            error = max(error, problem.separation.separate(body, span).error)
     tops = tuple(
         on_clock(materials_of(body)[0].contact_compliance(), clock)
         for body, clock in zip(bodies, clocks or repeat(TIME), strict=False)
@@ -210,7 +210,7 @@ def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTe
     creeps_alike = as_elastic(body)
     if creeps_alike is not None:
         return [SurfaceTerm(body.layers[0].material.contact_compliance(), creeps_alike)]
-    found = separate(body, span)
+    found = problem.separation.separate(body, span)
     return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
 
 
@@ -239,7 +239,7 @@ def as_elastic(body: Layered) -> ElasticStack | None:
         for ratio, nu in zip(ratios, map(constant_poisson_ratio, body.materials), strict=True)
         if nu is not None
     ]
-    return stack_of(body, constants)
+    return problem.separation.stack_of(body, constants)
 
 
 def follows_span(body: Material | Layered) -> bool:

@@ -4,3 +4,8 @@ Because the half-space kernel separates into space and time, the displacement is
 integral u(t) = ∫ J(t - t') dq(t') of the unit displacement q = K p, which the contact solver
 computes anyway: the load history costs no convolution in space.
 """
+
+import lazy_loader
+
+# Names of __init__.pyi, each loaded at its first use: few runs need all of them.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

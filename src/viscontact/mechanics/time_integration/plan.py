@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,11 +16,11 @@ from viscontact.bodies.materials.compliance import (
     ContactCompliance,
     SeriesCompliance,
 )
-from viscontact.mechanics.time_integration.boltzmann_sum import BoltzmannSum
-from viscontact.mechanics.time_integration.hereditary_integral import HereditaryIntegral
-from viscontact.mechanics.time_integration.internal_variables import InternalVariables
-from viscontact.mechanics.time_integration.prony_approximation import as_exponentials
+from viscontact.mechanics import time_integration
 from viscontact.units.formatting import format_quantity
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.time_integration.hereditary_integral import HereditaryIntegral
 
 #: Largest memory for the increments of the fields in a sum over all steps [bytes].
 MAX_HISTORY_BYTES = 256 * 2**20
@@ -65,10 +66,14 @@ class HereditaryPlan:
     ) -> HereditaryIntegral:
         """Hereditary integral of a field of this shape; `others` act on it as well."""
         if isinstance(self.compliance, SeriesCompliance):
-            return InternalVariables(self.compliance, shape, others, team, self.clock)
+            return time_integration.InternalVariables(
+                self.compliance, shape, others, team, self.clock
+            )
         is_adaptive = not self.instants.size
         room = STEP_RESERVE * self.rows if is_adaptive else self.rows
-        return BoltzmannSum(self.compliance, shape, self.instants, room, others, self.clock)
+        return time_integration.BoltzmannSum(
+            self.compliance, shape, self.instants, room, others, self.clock
+        )
 
 
 def plan_hereditary_integral(
@@ -89,7 +94,7 @@ def plan_hereditary_integral(
     if math.isinf(first):
         first = 1.0  # a jump alone, where time does not matter
     last = max(float(instants[-1]), 10 * first)
-    series, error = as_exponentials(compliance, first, last)
+    series, error = time_integration.prony_approximation.as_exponentials(compliance, first, last)
     rows = len(instants) + _long_steps(compliance, durations)
     if len(instants) <= MAX_SUMMED_STEPS and 8.0 * rows * numbers <= MAX_HISTORY_BYTES:
         method = "direct sum over all earlier steps, with the given law"

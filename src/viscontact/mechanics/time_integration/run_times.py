@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.mechanics.time_integration.default_times import default_times
+from viscontact.mechanics import time_integration
 from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
@@ -34,7 +34,7 @@ def run_instants(
     [0.0, 0.103, 10.0]
     """
     if times is None:
-        return default_times(load, compliance)
+        return time_integration.default_times.default_times(load, compliance)
     if not isinstance(times, AdaptiveTimes):
         return _checked_times(times)
     named = real_array("fields", kept, "s")

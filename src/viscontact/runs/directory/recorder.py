@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
 from dataclasses import replace
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.results.run_files import STATE_NAME
@@ -18,7 +18,9 @@ from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded import Recorded, remove_restart_files
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.simulation.accuracy.error_bars import ErrorBars
-from viscontact.simulation.transient.state_generator import Progress
+
+if TYPE_CHECKING:
+    from viscontact.simulation.transient.state_generator import Progress
 
 _LOG = logging.getLogger("viscontact")
 

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager, ExitStack, closing, contextmanage
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.results.run_files import RESULT_NAME, STATE_NAME
@@ -22,7 +23,9 @@ from viscontact.runs.execution.run_directory import reserved, write_case
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.processes.job import RunStage
 from viscontact.runs.processes.request import INTERRUPTED, RunRequest
-from viscontact.simulation.transient.state_generator import Progress
+
+if TYPE_CHECKING:
+    from viscontact.simulation.transient.state_generator import Progress
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,10 +17,16 @@ from viscontact.mechanics.contact.cell_fields import is_even
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps, step_ends
+from viscontact.simulation import accuracy, transient
 from viscontact.simulation.accuracy.coarser_grids import (
     aligned_spacing,
     coarser_grid,
     with_borders_at,
+)
+from viscontact.simulation.accuracy.coarser_ratios import (
+    FEW_STEPS,
+    ratios_of_cells,
+    ratios_of_steps,
 )
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History, ObservedStates
 from viscontact.simulation.accuracy.coarser_steps import (
@@ -28,28 +35,17 @@ from viscontact.simulation.accuracy.coarser_steps import (
     parts_of_first_steps,
     parts_of_shared_steps,
 )
-from viscontact.simulation.accuracy.event_runs import OwnEvents, own_events
 from viscontact.simulation.accuracy.moving_levels import (
     aligned_along,
     fewer_moving_times,
     whole_cell_ratios,
 )
 from viscontact.simulation.checks.ends import planes_of
-from viscontact.simulation.transient.march import March
-from viscontact.simulation.transient.segments_so_far import EventError
 from viscontact.simulation.transient.setup import RunSetup, plan_history
 
-#: Least number of cells across the largest contact, and cell sizes of the coarser runs, in cells of
-#: the run. Lines of centres of whole multiples would lie on those of the run: the rims of all grids
-#: might then agree by chance.
-CELL_RATIOS = ((40, (1.9, 2.9)), (0, (1.5, 2.4)))
-
-#: Number of steps below which a third run estimates their errors, however small the estimated
-#: time errors are: the first step behind a kink of the load has none.
-FEW_STEPS = 16
-
-#: Least number of steps of the run, and step sizes of its coarser runs, in steps of the run.
-STEP_RATIOS = ((32, (4, 8)), (FEW_STEPS, (2, 4)), (7, (2, 2)), (0, (1, 1)))
+if TYPE_CHECKING:
+    from viscontact.simulation.accuracy.event_runs import OwnEvents
+    from viscontact.simulation.transient.segments_so_far import EventError
 
 #: Mean number of steps between two times of the run from which coarser runs have all these times.
 STEPS_BETWEEN = 2
@@ -96,9 +92,9 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     creeping = creeps(run.problem.surface.creep, times)
     few = len(own) < FEW_STEPS or _creeps_behind_jumps(run, own)
     divides = creeping and (few or not _has_small_time_error(run, history))
-    step_ratios = _step_ratios(len(own))
+    step_ratios = ratios_of_steps(len(own))
     across = float(history["cells_across"].max(initial=0.0))
-    wanted = _cell_ratios(across if _may_have_larger_cells(run) else 0.0)
+    wanted = ratios_of_cells(across if _may_have_larger_cells(run) else 0.0)
     spacings = _spacings(across, wanted, parities=_parities(run))
     if not run.problem.motion.stands and (whole := whole_cell_ratios(across)):
         spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
@@ -156,24 +152,11 @@ def _creeps_behind_jumps(run: RunSetup, ends: Floats) -> bool:
     return bool(grown > (1 + LITTLE_CREEP) * compliance.instant)
 
 
-def usual_coarsening(steps: int, across: float) -> tuple[tuple[float, int], ...]:
-    """Ratios of cells and of steps of the coarser runs, by the run's steps and cells across."""
-    return tuple(zip(_cell_ratios(across), _step_ratios(steps), strict=True))
-
-
 def _may_have_larger_cells(run: RunSetup) -> bool:
     """Test whether the coarser runs of a contact of many cells may have larger ones than others."""
     # The rims of a strip lie alike among the cells all along it, so that their errors do not
     # cancel; on layers, errors depend on the cells within their thickness as well.
     return run.grid.has_datum and not np.isfinite(run.problem.thinnest_layer)
-
-
-def _cell_ratios(across: float) -> tuple[float, float]:
-    return next(cell_ratios for least, cell_ratios in CELL_RATIOS if across >= least)
-
-
-def _step_ratios(steps: int) -> tuple[int, int]:
-    return next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
 
 
 def march_coarser_run(
@@ -192,9 +175,9 @@ def march_coarser_run(
 
     try:
         if program_times is not None:
-            events = own_events(run, program_times, after_step)
+            events = accuracy.own_events(run, program_times, after_step)
         else:
-            for state in March(run, warns=False):
+            for state in transient.March(run, warns=False):
                 after_step(state)
     except (ConvergenceError, DomainError, EventError):
         return None

@@ -9,8 +9,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint
-from viscontact.mechanics.halfspace.end_correction import ends_error
-from viscontact.mechanics.halfspace.strip_basis import strip_error
+from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -127,10 +126,12 @@ def error_of_ends(problem: Problem, *, even: bool) -> float:
         ratio = body.material.poisson_ratio
         assert ratio is not None  # refused otherwise
         if "free" in body.ends:
-            errors.append(ends_error(ratio))
+            errors.append(halfspace.ends_error(ratio))
             if None not in body.ends:
                 kinds = (False, True) if body.ends == ("free", "free") and not even else (False,)
-                errors[-1] += max(strip_error(ratio, odd=odd) for odd in kinds)
+                errors[-1] += max(
+                    halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds
+                )
     return max(errors)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +13,8 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.problem.shear_terms import is_uncoupled, refuse_sliding_layers
 from viscontact.mechanics.problem.surface import constant_poisson_ratio
 from viscontact.units.formatting import format_quantity
 
@@ -129,9 +130,20 @@ def check_grid_of_friction(problem: Problem, grid: Grid) -> None:
         )
 
 
+def refuse_sliding_layers(bodies: Sequence[Material | Layered]) -> None:
+    """Refuse layers that slide, which no force along the surface holds."""
+    for name, body in zip(("material", "indenter_material"), bodies, strict=False):
+        if isinstance(body, Layered) and not np.all(body.bonded):
+            raise ValueError(
+                f"{name}.bonded: a layer that slides on what is beneath carries no force along "
+                "the surface, so that a body on it has nothing to hold on to; bond the layers, or "
+                "leave friction out"
+            )
+
+
 def coupling_warnings(problem: Problem) -> dict[str, str]:
     """Warn of bodies whose pressure and tractions are coupled, where that is neglected."""
-    if problem.friction is None or problem.friction.coupling or is_uncoupled(problem.bodies):
+    if problem.friction is None or problem.friction.coupling or not problem.may_be_coupled:
         return {}
     if any(isinstance(body, Layered) for body in problem.bodies):
         return {

@@ -14,9 +14,12 @@ from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
 from viscontact.mechanics.problem.problem import Problem
-from viscontact.mechanics.problem.shear_terms import refuse_sliding_layers
 from viscontact.mechanics.problem.surface import creeps
-from viscontact.simulation.checks.friction import check_grid_of_friction, refuse_coupled
+from viscontact.simulation.checks.friction import (
+    check_grid_of_friction,
+    refuse_coupled,
+    refuse_sliding_layers,
+)
 
 
 @dataclass(frozen=True, eq=False)

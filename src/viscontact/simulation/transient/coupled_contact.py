@@ -37,12 +37,8 @@ from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.friction import Grip, Growth
 from viscontact.simulation.transient.coupling_history import CouplingHistory, CouplingStep
-from viscontact.simulation.transient.frictional_contact import (
-    FrictionalContact,
-    Frictionless,
-    JointSlip,
-    SlipTrial,
-)
+from viscontact.simulation.transient.frictional_contact import FrictionalContact
+from viscontact.simulation.transient.frictionless import JointSlip, SlipTrial
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import StepSlip, step_slip
@@ -286,12 +282,3 @@ def _rescaled(
         against = way / np.maximum(lengths(way), TINY)
         traction[:, enters] = -coefficient * contact.pressure[enters] * against
     return SlipGuess(traction, slip.motion)
-
-
-def frictional_contact(run: RunSetup) -> Frictionless | FrictionalContact:
-    """Friction of a run; without it nothing is carried along the surface."""
-    problem = run.problem
-    if problem.friction is None or problem.shear_load is None:
-        return Frictionless()
-    kind = CoupledContact if problem.is_coupled else FrictionalContact
-    return kind(run, problem.friction, problem.shear_load)

@@ -29,8 +29,7 @@ from viscontact.mechanics.time_integration.adaptive_steps import MIN_STEP_FRACTI
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.simulation.transient.contact_events import PULL_OFF_MARGIN
-from viscontact.simulation.transient.coupled_contact import frictional_contact
-from viscontact.simulation.transient.frictional_contact import SlipTrial
+from viscontact.simulation.transient.frictionless import SlipTrial, frictional_contact
 from viscontact.simulation.transient.march import domain_of, not_converged, refuse_rim
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens

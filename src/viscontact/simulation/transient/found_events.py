@@ -17,12 +17,9 @@ from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
+from viscontact.simulation import meshing, transient
 from viscontact.simulation.checks.adhesion import resolved_on
 from viscontact.simulation.checks.problem_checks import check_mixed
-from viscontact.simulation.meshing.contact_place import locate_contact
-from viscontact.simulation.meshing.mesh_choice import choose_mesh
-from viscontact.simulation.transient.event_search import EventSearch
-from viscontact.simulation.transient.segments_so_far import ProgramCourse
 
 _LOG = logging.getLogger("viscontact")
 
@@ -73,14 +70,14 @@ def _latest_end(problem: Problem) -> float:
 
 def _search(
     problem: Problem, grid: Grid, latest: float, threads: int = 1
-) -> tuple[EventSearch, MixedHistory]:
+) -> tuple[transient.EventSearch, MixedHistory]:
     """March the program of a problem on a grid; return the search and what it found."""
     assert isinstance(problem.load, MixedHistory)
     assert problem.load.program is not None
     instants = None if problem.adaptive else problem.instants
     adheres = problem.adhesion is not None
-    course = ProgramCourse(problem.load.program, latest, may_pull=adheres)
-    search = EventSearch(
+    course = transient.ProgramCourse(problem.load.program, latest, may_pull=adheres)
+    search = transient.EventSearch(
         replace(problem, grid=grid),
         course,
         None if instants is None else lambda number, begin, end: instants,
@@ -89,7 +86,7 @@ def _search(
     return search, search.carry_out()
 
 
-def _rough_march(problem: Problem, latest: float) -> tuple[EventSearch, MixedHistory]:
+def _rough_march(problem: Problem, latest: float) -> tuple[transient.EventSearch, MixedHistory]:
     """March a program on few cells and steps, on a grid about as large as its largest contact."""
     easy = _with_few_steps(problem)
     size = 2 * MARGIN * np.array(_first_reach(problem, latest))
@@ -137,7 +134,7 @@ def _first_reach(problem: Problem, latest: float) -> tuple[float, float]:
     )
     compliance = float(problem.compliance(latest))
     response = problem.surface.response_at(latest)
-    found = locate_contact(problem.indenter, compliance, point, response=response)
+    found = meshing.locate_contact(problem.indenter, compliance, point, response=response)
     return found.reach_from((0.0, 0.0))
 
 
@@ -159,7 +156,7 @@ def _coarse(grid: Grid) -> Grid:
     return Grid((nx, ny), grid.size, centre=grid.centre)
 
 
-def _grid_for(problem: Problem, found: tuple[EventSearch, MixedHistory]) -> Grid:
+def _grid_for(problem: Problem, found: tuple[transient.EventSearch, MixedHistory]) -> Grid:
     """Automatic grid for the forces of a rough march, at the ends of its segments and the peak."""
     search, history = found
     forces = np.array([state.force for state in search.states])
@@ -169,14 +166,18 @@ def _grid_for(problem: Problem, found: tuple[EventSearch, MixedHistory]) -> Grid
     places = {name: getattr(history, name) for name in ("eccentricity_x", "eccentricity_y")}
     tilts = {name: getattr(history, name) for name in ("tilt_x", "tilt_y")}
     load = ForceHistory(times[kept], forces[kept], **places, **tilts)
-    mesh = choose_mesh(replace(problem, load=load), float(times[-1]))
+    mesh = meshing.choose_mesh(replace(problem, load=load), float(times[-1]))
     for text in mesh.warnings.values():
         _LOG.info("automatic grid: %s", text)
     return mesh.grid
 
 
 def _under_history(
-    problem: Problem, grid: Grid, found: tuple[EventSearch, MixedHistory], *, roughly: bool
+    problem: Problem,
+    grid: Grid,
+    found: tuple[transient.EventSearch, MixedHistory],
+    *,
+    roughly: bool,
 ) -> Problem:
     """The problem under a history that was found, with its events among the times."""
     search, history = found

@@ -14,7 +14,7 @@ from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.simulation.transient.coupled_contact import frictional_contact
+from viscontact.simulation.transient.frictionless import frictional_contact
 from viscontact.simulation.transient.grid_enlargement import (
     FREE,
     GridEnlargement,

@@ -21,8 +21,8 @@ from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
+from viscontact.simulation import checks, transient
 from viscontact.simulation.checks.adhesion import tail_warnings
-from viscontact.simulation.checks.adhesive_limits import front_warnings
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.simulation.checks.material import (
@@ -40,11 +40,8 @@ from viscontact.simulation.checks.tested_limits import (
     loaded_since,
     repeated,
 )
-from viscontact.simulation.transient.adhesion_results import adhesion_energy, adhesion_scalars
-from viscontact.simulation.transient.contact_events import ContactEvents
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
-from viscontact.simulation.transient.moving_contact import MovingContact, StandingContact
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 from viscontact.simulation.transient.warning_rules import (
@@ -52,7 +49,6 @@ from viscontact.simulation.transient.warning_rules import (
     loading_warnings,
     setup_warnings,
 )
-from viscontact.simulation.transient.zone_passage import ZonePassage
 from viscontact.units.formatting import format_quantity
 
 #: Growth of the largest pressure since the last check for corners that calls for another [-].
@@ -73,14 +69,14 @@ class Observer:
         self._warns = warns
         self._set_geometry(run)
         stands = run.problem.motion.stands
-        self._motion = StandingContact() if stands else MovingContact(run)
+        self._motion = transient.StandingContact() if stands else transient.MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
         self._since = loaded_since(run.problem.contact_load)
         clocks = run.problem.clocks
         self._limited = limited_bodies(run.problem.bodies, clocks, self._since) if warns else ()
-        self._events = None if run.law is None else ContactEvents()
-        self._passage = None if run.law is None else ZonePassage()
+        self._events = None if run.law is None else transient.ContactEvents()
+        self._passage = None if run.law is None else transient.ZonePassage()
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -127,7 +123,7 @@ class Observer:
         moved: dict[str, Any] = self._motion.evaluate(step, solution)
         moved |= self._run.problem.clock_scalars(step.time)
         if self._run.law is not None:
-            moved |= adhesion_scalars(self._run, solution)
+            moved |= transient.adhesion_scalars(self._run, solution)
         moved |= self._stage_of(point, solution)
         # The surface takes up the work of the load and that of the motion.
         self._work -= 0.0 if self._held else self._motion.added
@@ -147,7 +143,7 @@ class Observer:
             self._events.after(state)
         if self._passage is not None:
             passed = self._passage.after(state)
-            self.warn(front_warnings(passed, self._run.problem.data_times))
+            self.warn(checks.adhesive_limits.front_warnings(passed, self._run.problem.data_times))
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -322,7 +318,9 @@ class Observer:
         self._point, self._held = point, False
         law = self._run.law
         if before is None:  # every run starts with a jump
-            gained = 0.0 if law is None else adhesion_energy(law, self._run.grid, solution.gap)
+            gained = (
+                0.0 if law is None else transient.adhesion_energy(law, self._run.grid, solution.gap)
+            )
             return self._run.problem.compliance.instant * solution.energy - gained
         travel = solution.motion - before.motion
         of_load = float((before.resultants + solution.resultants) @ travel / 2)

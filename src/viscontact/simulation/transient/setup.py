@@ -22,6 +22,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
 from viscontact.mechanics.time_integration.plan import HereditaryPlan, plan_hereditary_integral
+from viscontact.simulation import meshing, transient
 from viscontact.simulation.checks.adhesion import check_adhesion, law_on
 from viscontact.simulation.checks.ends import (
     check_ends,
@@ -43,9 +44,6 @@ from viscontact.simulation.checks.problem_checks import (
     check_touch,
     points_under_load,
 )
-from viscontact.simulation.meshing.mesh_choice import Mesh, choose_mesh
-from viscontact.simulation.meshing.path_extent import grid_over_path
-from viscontact.simulation.transient.moving_body import cells_seen
 
 #: Adaptive steps that the hereditary integral is planned for: at least this many, and this many
 #: times the expected ones. More are possible.
@@ -60,7 +58,7 @@ class RunSetup:
     grid: Grid
     open_gap: Floats  # on the grid [m], at time 0; +inf outside the body
     hereditary: HereditaryPlan  # of the first term of the surface
-    mesh: Mesh | None  # None for a given grid
+    mesh: meshing.Mesh | None  # None for a given grid
     threads: int
     transforms: str  # library, which a run keeps, as rounding differs
     other_terms: tuple[HereditaryPlan, ...] = ()  # of layers that creep differently
@@ -182,10 +180,10 @@ def _check_parts(problem: Problem) -> None:
     check_adhesion(problem)
 
 
-def _mesh_over_path(problem: Problem) -> Mesh:
+def _mesh_over_path(problem: Problem) -> meshing.Mesh:
     """Automatic mesh, of a moving body over its whole path."""
-    mesh = choose_mesh(problem, problem.end)
-    return replace(mesh, grid=grid_over_path(mesh.grid, problem.motion))
+    mesh = meshing.choose_mesh(problem, problem.end)
+    return replace(mesh, grid=meshing.grid_over_path(mesh.grid, problem.motion))
 
 
 def _about_body(problem: Problem, grid: Grid) -> Grid:
@@ -235,7 +233,7 @@ def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, boo
     if problem.motion.stands:
         return mirrored_axes(grid, open_gap, loads)
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.
-    seen = cells_seen(grid, problem.motion)
+    seen = transient.cells_seen(grid, problem.motion)
     even = mirrored_axes(
         grid,
         problem.indenter.gap(seen[0][:, None], seen[1]),

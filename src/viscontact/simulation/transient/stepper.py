@@ -38,8 +38,8 @@ from viscontact.mechanics.time_integration.hereditary_integral import response_t
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
-from viscontact.simulation.transient.adhesive_contact import AdhesiveContact, AdhesiveStep
-from viscontact.simulation.transient.frictional_contact import JointSlip, Uncoupled
+from viscontact.simulation import transient
+from viscontact.simulation.transient.frictionless import JointSlip, Uncoupled
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
@@ -77,7 +77,7 @@ class TrialStep:
     reference: ElasticReference
     outcome: Outcome
     error: StepError
-    adhesive: AdhesiveStep | None = None
+    adhesive: transient.AdhesiveStep | None = None
     joint: JointSlip | None = None  # tractions that are coupled with the pressure
     earlier_lift: Floats | None = None  # displacement by earlier tractions [m], cells computed
 
@@ -323,7 +323,7 @@ class Stepper:
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
         return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
 
-    def _solve_adhesive(self, step: TimeStep, posed: StepProblem) -> AdhesiveStep | None:
+    def _solve_adhesive(self, step: TimeStep, posed: StepProblem) -> transient.AdhesiveStep | None:
         """Solve the equilibrium of bodies that adhere (step 3); None without adhesion."""
         if self._adhesive is None:
             return None
@@ -334,7 +334,7 @@ class Stepper:
             raise StepTooLongError(found.change)
         return found
 
-    def _adhesive_accept(self, step: AdhesiveStep) -> None:
+    def _adhesive_accept(self, step: transient.AdhesiveStep) -> None:
         if self._adhesive is not None:
             self._adhesive.accept(step)
 
@@ -359,12 +359,12 @@ class Stepper:
         return _at_lowest_point(self._run, step.time, apart) if untouched else apart
 
 
-def _adhesive_contact(run: RunSetup, domain: ContactDomain) -> AdhesiveContact | None:
+def _adhesive_contact(run: RunSetup, domain: ContactDomain) -> transient.AdhesiveContact | None:
     """Adhesive contacts of a run; None without adhesion."""
     if run.law is None:
         return None
     open_gap = domain.reduce_by_symmetry(run.open_gap)
-    return AdhesiveContact(run.law, domain, open_gap, run.problem.tolerance)
+    return transient.AdhesiveContact(run.law, domain, open_gap, run.problem.tolerance)
 
 
 def _force(point: LoadPoint) -> Floats:

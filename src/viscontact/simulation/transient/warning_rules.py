@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats
@@ -11,7 +13,7 @@ from viscontact.bodies.materials.layers import materials_of
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, TimeStep
-from viscontact.simulation.checks.adhesive_limits import zone_warnings
+from viscontact.simulation import checks
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
 from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
@@ -40,7 +42,9 @@ from viscontact.simulation.checks.steps import (
 from viscontact.simulation.checks.temperature import shift_warnings
 from viscontact.simulation.checks.tested_limits import temperature_warnings
 from viscontact.simulation.transient.setup import RunSetup
-from viscontact.simulation.transient.step_solution import StepSolution
+
+if TYPE_CHECKING:
+    from viscontact.simulation.transient.step_solution import StepSolution
 
 
 def setup_warnings(run: RunSetup) -> dict[str, str]:
@@ -53,7 +57,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     warnings |= temperature_warnings(problem.materials, problem.temperature)
     warnings |= shift_warnings(problem)
     if run.law is not None:
-        warnings |= zone_warnings(run.law, problem, run.grid)
+        warnings |= checks.adhesive_limits.zone_warnings(run.law, problem, run.grid)
     warnings |= coupling_warnings(problem) | rise_warnings(problem, run.grid)
     lost = () if problem.motion.stands else ("dissipation", "heat")
     undefined = ("approach", "work", *lost, "loss per cycle")

@@ -1,15 +1,6 @@
 """Contact compliance J(t), the function of time by which a contact depends on the materials."""
 
-from viscontact.bodies.materials.compliance.base import ContactCompliance
-from viscontact.bodies.materials.compliance.of_law import LawCompliance
-from viscontact.bodies.materials.compliance.on_clock import ClockedCompliance
-from viscontact.bodies.materials.compliance.series import SeriesCompliance
-from viscontact.bodies.materials.compliance.sum import SummedCompliance
+import lazy_loader
 
-__all__ = [
-    "ClockedCompliance",
-    "ContactCompliance",
-    "LawCompliance",
-    "SeriesCompliance",
-    "SummedCompliance",
-]
+# Names of __init__.pyi, each loaded at its first use: few runs need all of them.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -18,8 +18,8 @@ from viscontact.bodies.laws.interconversion.series import (
     relaxation_function,
 )
 from viscontact.bodies.laws.parameter_checks import check_series
+from viscontact.bodies.materials import compliance
 from viscontact.bodies.materials.compliance.base import ContactCompliance
-from viscontact.bodies.materials.compliance.sum import SummedCompliance
 from viscontact.units.numbers import check_fields, non_negative, store
 
 
@@ -94,7 +94,7 @@ class SeriesCompliance(ContactCompliance):
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""
         if not isinstance(other, SeriesCompliance):
-            return SummedCompliance((self,)) + other
+            return compliance.SummedCompliance((self,)) + other
         return SeriesCompliance(
             self.instant + other.instant,
             np.concatenate([self.amplitudes, other.amplitudes]),

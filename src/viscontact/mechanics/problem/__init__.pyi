@@ -1,0 +1,6 @@
+from . import separation, shear_terms
+
+__all__ = [
+    "separation",
+    "shear_terms",
+]

@@ -1,0 +1,5 @@
+from .enlarged_grid import enlargements
+
+__all__ = [
+    "enlargements",
+]

@@ -1,0 +1,5 @@
+from .over_speed import OverSpeed
+
+__all__ = [
+    "OverSpeed",
+]

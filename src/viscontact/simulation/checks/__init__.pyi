@@ -1,0 +1,5 @@
+from . import adhesive_limits
+
+__all__ = [
+    "adhesive_limits",
+]

@@ -1,0 +1,7 @@
+from .preparation import prepare
+from .problem import steady_problem
+
+__all__ = [
+    "prepare",
+    "steady_problem",
+]
