@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.signal import detrend
+import scipy
 
 from viscontact.backend.arrays import Bools
 from viscontact.bodies.series_fits.quality import LARGEST_LIMIT, RMS_LIMIT, Misfit, Reason
@@ -80,7 +80,7 @@ def _cause(fit: IndentationFit) -> str:
     """Likely cause of correlated residuals."""
     free = _free_rows(fit)
     # A law that misses the contact turns the baseline a little, too.
-    rest = detrend(fit.residuals[free]) if free.sum() > _FEWEST else np.zeros(1)
+    rest = scipy.signal.detrend(fit.residuals[free]) if free.sum() > _FEWEST else np.zeros(1)
     smaller = np.sqrt(np.mean(rest**2)) < fit.residual / _SMALLER
     if fit.contact is None or smaller or noise_of(rest, 2).is_white:
         return f"the law misses the contact; look for another law, {_LEFT_OUT}"
@@ -102,7 +102,7 @@ def _free_rows(fit: IndentationFit) -> Bools:
 
 def _period(fit: IndentationFit, free: Bools) -> float | None:
     """Period over the position of residuals without contact [m]; None if no one stands out."""
-    way, residuals = fit.record.approach[free], detrend(fit.residuals[free])
+    way, residuals = fit.record.approach[free], scipy.signal.detrend(fit.residuals[free])
     if way.size < 32 or np.ptp(way) == 0:
         return None
     order = np.argsort(way)

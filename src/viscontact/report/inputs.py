@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.argument_table import argument_rows
 from viscontact.results.filed_case import FiledCase
 from viscontact.results.recorded_case import case_of

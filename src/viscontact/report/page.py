@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import maps_if_any
 from viscontact.drawing.figures import Chapter as FigureChapter
 from viscontact.drawing.plotly.run_figures import run_figures

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from viscontact.cli.results.stored import checked_result, early_end
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.results.run_files import MANIFEST_NAME, RESULT_NAME
-from viscontact.studies.sweep.filed_sweep import filed_attributes
-from viscontact.studies.sweep.open_many import open_many
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def write_report(directory: Path, output: Path | None) -> Path:
@@ -26,9 +27,8 @@ def write_report(directory: Path, output: Path | None) -> Path:
     kind = "pdf" if as_pdf else "report"
     try:
         if (directory / MANIFEST_NAME).is_file():
-            runs = open_many(directory).assign_attrs(filed_attributes(directory))
             write = getattr(package, f"write_sweep_{kind}")
-            write(runs, page, title=directory.resolve().name)
+            write(_joined(directory), page, title=directory.resolve().name)
             return page
         with checked_result(directory) as ds:
             if ended := early_end(ds):
@@ -39,10 +39,20 @@ def write_report(directory: Path, output: Path | None) -> Path:
     return page
 
 
+def _joined(directory: Path) -> xr.Dataset:
+    """Joint result of a sweep."""
+    from viscontact.studies.sweep.filed_sweep import filed_attributes
+    from viscontact.studies.sweep.open_many import open_many
+
+    return open_many(directory).assign_attrs(filed_attributes(directory))
+
+
 def _report_package() -> Any:
     """Return `viscontact.report`, or name the missing package."""
     try:
         from viscontact import report as package
+
+        assert package.write_report  # what it needs is imported here, where it is named if missing
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "plotly"):
             raise
