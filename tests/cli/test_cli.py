@@ -35,7 +35,7 @@ from viscontact.results.formatting import format_percent
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.preparation import prepared
 from viscontact.runs.processes.request import RunRequest
-from viscontact.simulation.transient import frictional_contact
+from viscontact.simulation.transient import frictionless
 from viscontact.units.formatting import format_quantity
 
 SPHERE = """\
@@ -251,7 +251,7 @@ def test_run_without_grid_chooses_one(folder: Path) -> None:
 
 def _in_third_step(monkeypatch: pytest.MonkeyPatch, act: Callable[[], None]) -> None:
     """Do something while the third step of a run is being solved."""
-    solve, solved = frictional_contact.solve_contact, []
+    solve, solved = frictionless.solve_contact, []
 
     def solving(*arguments: Any, **options: Any) -> Any:
         solved.append(1)
@@ -259,7 +259,7 @@ def _in_third_step(monkeypatch: pytest.MonkeyPatch, act: Callable[[], None]) -> 
             act()
         return solve(*arguments, **options)
 
-    monkeypatch.setattr(frictional_contact, "solve_contact", solving)
+    monkeypatch.setattr(frictionless, "solve_contact", solving)
 
 
 def _presses(times: int) -> None:
@@ -406,7 +406,7 @@ def test_run_without_a_single_instant_does_not_block_its_directory(
     Path("mine").mkdir()
     Path("mine/notes.txt").write_text("keep", encoding="utf-8")
     with monkeypatch.context() as patched:
-        patched.setattr(frictional_contact, "solve_contact", hopeless)
+        patched.setattr(frictionless, "solve_contact", hopeless)
         assert main(["run", "case.yaml", "-q", "-o", "mine"]) == 1
         assert "mine keeps nothing yet: no instant was finished" in capsys.readouterr().err
     assert main(["run", "case.yaml", "-q", "-o", "mine"]) == 0
@@ -420,7 +420,7 @@ def test_fault_of_ours_is_a_line_and_not_a_traceback(
     def faulty(*arguments: Any, **options: Any) -> None:
         raise ZeroDivisionError("so it goes")
 
-    monkeypatch.setattr(frictional_contact, "solve_contact", faulty)
+    monkeypatch.setattr(frictionless, "solve_contact", faulty)
     assert main(["run", "case.yaml", "-q"]) == 1
     message = capsys.readouterr().err
     assert "unexpected ZeroDivisionError: so it goes" in message

@@ -20,11 +20,11 @@ import viscontact as vc
 from interrupted_runs import CASE, at_instant, contents, folder, kill, same_bits, whole
 from viscontact.cli import main
 from viscontact.results.line_digests import with_digest
-from viscontact.runs import over_time
 from viscontact.runs.directory import checkpoint, recorder
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation.transient import frictional_contact
+from viscontact.simulation import transient
+from viscontact.simulation.transient import frictionless
 
 __all__ = ["folder", "whole"]  # fixtures
 
@@ -502,7 +502,7 @@ def test_failed_step_stands_at_the_end_of_the_result(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    solve = frictional_contact.solve_contact
+    solve = frictionless.solve_contact
 
     def failing(problem: Any, *arguments: Any, **options: Any) -> Any:
         solution = solve(problem, *arguments, **options)
@@ -511,7 +511,7 @@ def test_failed_step_stands_at_the_end_of_the_result(
         return solution if done else type(solution)(**{**vars(solution), "converged": False})
 
     with monkeypatch.context() as patched:
-        patched.setattr(frictional_contact, "solve_contact", failing)
+        patched.setattr(frictionless, "solve_contact", failing)
         assert main(["run", "case.yaml", "-q"]) == 1
     why, kept, remedy = said_in_lines(capsys)
     assert "short of the tolerance" in why
@@ -528,7 +528,7 @@ def test_memory_that_runs_out_stops_the_run_in_one_message(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    solve, count = frictional_contact.solve_contact, 0
+    solve, count = frictionless.solve_contact, 0
 
     def solving(*arguments: Any, **options: Any) -> Any:
         nonlocal count
@@ -538,7 +538,7 @@ def test_memory_that_runs_out_stops_the_run_in_one_message(
         return solve(*arguments, **options)
 
     with monkeypatch.context() as patched:
-        patched.setattr(frictional_contact, "solve_contact", solving)
+        patched.setattr(frictionless, "solve_contact", solving)
         assert main(["run", "case.yaml", "-q"]) == 1
     assert said_in_lines(capsys)[0] == "case: the run stopped: MemoryError"
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0
@@ -675,14 +675,14 @@ def test_table_that_is_changed_before_the_first_step_stops_the_run(
     table = Path("tables/load.csv")
     table.write_text(TABLE, encoding="utf-8")
     words = ["run", "case.yaml", "-q", "--set", f"load={{kind: history, file: {table}}}"]
-    march = over_time.March
+    march = transient.March
 
     def marching(*arguments: Any) -> Any:
         change(table)
         return march(*arguments)
 
     with monkeypatch.context() as patched:
-        patched.setattr(over_time, "March", marching)
+        patched.setattr(transient, "March", marching)
         assert main(words) == 1
     first, *_ = said_in_lines(capsys)
     assert "load.csv was changed while the run was being prepared" in first

@@ -37,7 +37,7 @@ from viscontact.runs.directory import recorded, recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.execution import checked_run
-from viscontact.simulation.transient import frictional_contact
+from viscontact.simulation.transient import frictionless
 
 __all__ = ["folder", "whole"]  # fixtures
 
@@ -241,7 +241,7 @@ def test_earlier_result_stays_until_the_new_run_has_its_first_instant(
 
     heavier = ["--set", "load={kind: step, force: 5 N}", "-q"]
     with monkeypatch.context() as patched:
-        patched.setattr("viscontact.simulation.transient.frictional_contact.solve_contact", die)
+        patched.setattr("viscontact.simulation.transient.frictionless.solve_contact", die)
         with pytest.raises(Killed):
             main(["run", "case.yaml", "--overwrite", *heavier])
     assert contents("case") == before
@@ -313,7 +313,7 @@ def test_signal_that_arrives_twice_from_a_batch_system_is_one_request(
         signal.raise_signal(signal.SIGTERM)
         signal.raise_signal(signal.SIGTERM)
 
-    solve, solved = frictional_contact.solve_contact, []
+    solve, solved = frictionless.solve_contact, []
 
     def solving(*arguments: Any, **options: Any) -> Any:
         solved.append(1)
@@ -321,7 +321,7 @@ def test_signal_that_arrives_twice_from_a_batch_system_is_one_request(
             twice()
         return solve(*arguments, **options)
 
-    monkeypatch.setattr(frictional_contact, "solve_contact", solving)
+    monkeypatch.setattr(frictionless, "solve_contact", solving)
     assert main(["run", "case.yaml", "-q"]) == 130
     with vc.open_results("case") as ds:
         assert ds.sizes["time"] == len(solved) + 1  # the first instant has no contact to be solved
@@ -330,7 +330,7 @@ def test_signal_that_arrives_twice_from_a_batch_system_is_one_request(
 def test_second_request_within_a_step_stops_at_once(
     folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    solve, solved = frictional_contact.solve_contact, []
+    solve, solved = frictionless.solve_contact, []
 
     def solving(*arguments: Any, **options: Any) -> Any:
         if len(solved) == 3:
@@ -340,7 +340,7 @@ def test_second_request_within_a_step_stops_at_once(
         return solve(*arguments, **options)
 
     with monkeypatch.context() as patched:
-        patched.setattr(frictional_contact, "solve_contact", solving)
+        patched.setattr(frictionless, "solve_contact", solving)
         assert main(["run", "case.yaml", "-q"]) == 130
     assert len(solved) == 3  # the step in progress was not solved
     with vc.open_results("case") as ds:
@@ -427,7 +427,7 @@ def test_step_that_fails_is_not_gone_on_from_though_a_stop_is_asked_for_in_it(
     # A kink of the load at 1.2 s makes a step that was not requested.
     load = "load={kind: history, points: [[0 s, 0 N], [1.2 s, 4 N], [5 s, 4 N]]}"
     command = ["run", "case.yaml", "-q", "--set", load]
-    solve, solved = frictional_contact.solve_contact, []
+    solve, solved = frictionless.solve_contact, []
 
     def failing(*arguments: Any, **options: Any) -> Any:
         solved.append(1)
@@ -438,7 +438,7 @@ def test_step_that_fails_is_not_gone_on_from_though_a_stop_is_asked_for_in_it(
         return dataclasses.replace(solution, converged=False)
 
     with monkeypatch.context() as patched:
-        patched.setattr(frictional_contact, "solve_contact", failing)
+        patched.setattr(frictionless, "solve_contact", failing)
         assert main(command) == 1
     assert "short of the tolerance" in capsys.readouterr().err
     assert main([*command, "--resume"]) == 0

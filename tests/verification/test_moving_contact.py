@@ -19,9 +19,9 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
+from viscontact.simulation import meshing
 from viscontact.simulation.accuracy.coarser_runs import plan_coarser_runs
 from viscontact.simulation.checks.motion import left_after
-from viscontact.simulation.transient import setup
 from viscontact.simulation.transient.setup import prepare_run
 
 #: A Zener body that relaxes from 2000 to 200 with a retardation time of 10; J = Phi for nu = 0.
@@ -173,16 +173,16 @@ def test_work_of_a_cycle_that_ends_unloaded_is_heat() -> None:
 
 
 def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) -> None:
-    import viscontact.simulation.transient.frictional_contact as frictional_contact
+    import viscontact.simulation.transient.frictionless as frictionless
 
-    counts, solve = [], frictional_contact.solve_contact
+    counts, solve = [], frictionless.solve_contact
 
     def counted(*args: Any, **options: Any) -> Any:
         solution = solve(*args, **options)
         counts.append(solution.convolutions)
         return solution
 
-    monkeypatch.setattr(frictional_contact, "solve_contact", counted)
+    monkeypatch.setattr(frictionless, "solve_contact", counted)
     travelled(way=3.2)
     assert np.mean(counts) < 8  # 12 are allowed at a tolerance of 1e-6
 
@@ -408,7 +408,7 @@ def test_automatic_grid_grows_where_a_moving_contact_outgrows_it(
     given = (BODY, ZENER, LEVEL, COARSE, np.linspace(0.0, 8.0, 17))
     options: Any = {"motion": vc.Travel([0.0, 8.0], y=[0.0, 0.6]), "errors": False}
     whole = vc.simulate(*given, **options)
-    monkeypatch.setattr(setup, "grid_over_path", lambda grid, motion: grid)
+    monkeypatch.setattr(meshing, "grid_over_path", lambda grid, motion: grid)
     grown = vc.simulate(*given, **options)
     assert "grid_enlarged" in grown.attrs
     for name in ("resistance_y", "approach", "heat"):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.cohesive_laws import LAWS, CohesiveLaw
 from viscontact.units.numbers import check_fields
 

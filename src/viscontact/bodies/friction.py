@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.numbers import as_real, check_fields
 
 #: Largest coefficient of friction: larger ones are taken for percentages.

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Field, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import as_real, finite, positive, store, whole

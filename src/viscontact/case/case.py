@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
 from viscontact import case
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.bodies.surfaces import Surface

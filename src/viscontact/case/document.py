@@ -5,11 +5,12 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import toml_source, yaml_source
 from viscontact.case.aliases import CanonicalData, resolved, value_at
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted

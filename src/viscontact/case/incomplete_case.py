@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from os import PathLike
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import TypeAdapter
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.materials.layers import Layered

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import (
@@ -17,6 +16,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import COARSEST, FINEST
 from viscontact.bodies.loads.harmonic_history import MOST_CYCLES
 from viscontact.bodies.loads.motion import LARGEST_CREEPAGE

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import yaml_source
 from viscontact.case.errors import KeyPath
 from viscontact.units.tolerances import read_toleranced

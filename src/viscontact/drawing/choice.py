@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.figures import FigureEntry, entry_of
 from viscontact.results.run_axis import SPEED, TIME, RunAxis, run_axis
 from viscontact.units.parsing import parse_quantity

@@ -7,9 +7,10 @@ page read it. It imports no plotting library, so that the command line can print
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import Literal
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Chapters of the report of a run, and of the calculator page, which has interactive figures only;
 #: those of "spots", "stress" and "slip" follow a sentence of the report, and are still.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from warnings import warn
 
 import numpy as np
@@ -11,6 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.threads import limit_threads
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.laws import Elastic

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.adhesion import JKR_ABOVE, Adhesion, regime
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.fitted_contact import FittedContact

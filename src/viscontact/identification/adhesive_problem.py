@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.adhesive_branch import adhesive_branch
 from viscontact.identification.force_curve import ForceCurve
 

@@ -7,7 +7,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar, Protocol, TypeVar
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.fitted_curve import FittedCurve
 from viscontact.units.display import Displayable, Plotted
 from viscontact.units.formatting import column_heading, format_quantity

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate
 from viscontact.identification.elastic_indentation import ElasticIndentation

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeVar
 
@@ -11,6 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Paraboloid, Pyramid, Sphere
 from viscontact.reference import (
     ConeProfile,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Protocol
 
@@ -12,6 +11,7 @@ from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.series_fits.residual_noise import Noise, noise_of
 
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.formatting import format_quantity
 
 #: Terms of a baseline, with their units.

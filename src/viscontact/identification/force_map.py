@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.instrument_curves import read_apart, recorded_curve, split_number
 from viscontact.identification.instrument_reader import count_curves, read_all

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import isotonic_regression
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.isotherm import Isotherm
 from viscontact.identification.measured_sets import MeasuredSets, measured_sets
 from viscontact.identification.shift_doubts import (

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Elastic, Law, PowerLaw
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits.quality import Misfit

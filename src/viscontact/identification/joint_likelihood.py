@@ -8,13 +8,13 @@ follows the scatter of each set where the others have no rows.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.penalized_splines import PenalizedSplines
 from viscontact.identification.vertical_shift import VerticalShift

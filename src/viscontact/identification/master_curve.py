@@ -5,13 +5,14 @@ from __future__ import annotations
 import itertools
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar, TypedDict, Unpack
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Shift, TabulatedShift
 from viscontact.bodies.series_fits.columns import positive_column, require_trend
 from viscontact.bodies.series_fits.fit import Fit

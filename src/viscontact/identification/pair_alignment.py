@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.scatter import Scatter, wiener_kernel
 from viscontact.identification.vertical_shift import VerticalShift

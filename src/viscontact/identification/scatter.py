@@ -7,12 +7,11 @@ Both follow from the restricted likelihood of all sets, which needs no shift fac
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.measured_sets import MeasuredSets
 
 # Weak prior knowledge, which decides only for sets of two or three rows: noise of 1 %, as if from a

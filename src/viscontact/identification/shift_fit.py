@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import WLF, Arrhenius
 from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
 from viscontact.bodies.series_fits.columns import positive_column, require_rows

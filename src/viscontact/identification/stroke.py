@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 
 _STRAIGHT = 3e-3  # of the extent: a phase deviates less from a straight line
 _RETRACTED = 0.2  # of the rise: a smaller fall is no retraction

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.joint_likelihood import Joined, JointLikelihood
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.pair_alignment import Alignment, aligned_pair

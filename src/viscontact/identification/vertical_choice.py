@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.measured_sets import MeasuredSets
 from viscontact.identification.shift_uncertainty import relative_to
 from viscontact.identification.superposition import Superposition, slower_steps, superposed

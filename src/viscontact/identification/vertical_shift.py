@@ -6,12 +6,12 @@ Properties of Polymers, 3rd ed., 1980, chapter 11): b_T = T ρ/(T_r ρ_r).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 Vertical = Literal["none", "rubber", "found"]
 VERTICALS: tuple[Vertical, ...] = ("none", "rubber", "found")

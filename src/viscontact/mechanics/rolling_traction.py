@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Flags, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

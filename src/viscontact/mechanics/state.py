@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import IntEnum
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.rolling_traction import RollingTraction
 

@@ -7,11 +7,11 @@ dimensionless by pi w R, (pi w R^2/K)^(1/3) and (pi^2 w^2 R/K^2)^(1/3), K = 4 E*
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import require_positive
 
 #: Largest ratio of the outer radius of the cohesive zone to that of the contact, for brackets.

@@ -6,12 +6,11 @@ it are neglected, which takes a tenth of a percent of the shift at a ratio of 1/
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy  # its quadrature is imported at its first use
 from numpy.typing import ArrayLike
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.hertz import SphereContact, hertz_sphere
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array

@@ -7,13 +7,13 @@ bodies of (1 - nu²)/E, or the contact compliance J of a law at one instant.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.indentation_march import (

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.lag_means import LagMean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rod_history import RodHistory

@@ -18,12 +18,12 @@ Value Problems in Potential Theory (1966); K. L. Johnson, Contact Mechanics (198
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.profiles import ConeProfile, Profile, SphereProfile
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array

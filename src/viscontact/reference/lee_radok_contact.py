@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.growing_load import GrowingLoad
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.values import Values

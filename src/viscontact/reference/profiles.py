@@ -8,12 +8,12 @@ elastic surface so that, in the transform of `AxisymmetricContact`, it moves by 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import require_positive
 
 

@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array
 

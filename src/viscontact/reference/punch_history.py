@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.hereditary import TimeFunction, evaluate
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array

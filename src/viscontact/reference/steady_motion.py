@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from scipy.optimize import brentq
 from scipy.special import expit, ive, kve
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import require_positive
 
 #: Argument of Bessel functions from which on two terms of their asymptotic series are enough.

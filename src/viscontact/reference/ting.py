@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.hereditary import TimeFunction, evaluate, superposed
 from viscontact.reference.profiles import ConeProfile, SphereProfile
 from viscontact.reference.ting_contact import SinglePress

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.ting import GrowingProfile
 from viscontact.reference.ting_contact import TingContact
 from viscontact.reference.values import Values, require_positive

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its quadrature is imported at its first use
 from numpy.typing import ArrayLike
-from scipy.integrate import quad
 from scipy.special import lambertw
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.ting_contact import SinglePress, over_times
 from viscontact.reference.values import Values, require_positive
 
@@ -114,7 +114,9 @@ class TingForceTriangle(SinglePress):
         # The substitution t = x³ removes the singularity at the beginning.
         corners = sorted({max(then, corner) for corner in (then, self.rise, self.widest)})
         parts = [
-            quad(lambda x: 3 * x**2 * slope(x**3), low ** (1 / 3), high ** (1 / 3), epsrel=1e-12)[0]
+            scipy.integrate.quad(
+                lambda x: 3 * x**2 * slope(x**3), low ** (1 / 3), high ** (1 / 3), epsrel=1e-12
+            )[0]
             for low, high in itertools.pairwise(corners)
         ]
         return self._rise(self.widest) - float(sum(parts))

@@ -9,11 +9,11 @@ elastic one of that instant, but tends to it where J becomes constant.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.reference.values import Values, require_positive
 from viscontact.units.numbers import real_array
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_axis import RunAxis, run_axis
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.units.formatting import format_number, format_quantity

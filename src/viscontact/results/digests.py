@@ -15,13 +15,13 @@ import json
 import math
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import product
 from typing import Any, Self
 
 import netCDF4
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.damage import DamagedFileError
 
 #: Group of a file with its digests: an attribute for the attributes of the file, an attribute for

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from datetime import UTC, datetime
 from typing import Any, Self
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.variables import ALLOWABLE
 
 #: Attributes as JSON, each with the type of its content.

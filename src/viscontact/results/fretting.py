@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads import TangentialLoad
 from viscontact.results.recorded_objects import recorded_object

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis

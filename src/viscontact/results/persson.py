@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats, Integers, Numbers
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.material import Material
 from viscontact.bodies.surfaces import Surface, surface_of
 from viscontact.bodies.surfaces.height_spectrum import mean_square_waves

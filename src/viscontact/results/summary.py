@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.formatting import (
     NEGLIGIBLE,
     format_error,

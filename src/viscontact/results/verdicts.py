@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.formatting import format_percent, format_with_error
 from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.peak_stress import peak_stress

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import time as clock
-from dataclasses import dataclass
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint, MixedHistory

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from viscontact import runs
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case

@@ -7,13 +7,14 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Future
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from typing import Any, Protocol
 
 import xarray as xr
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.executors.executor_choice import IN_THIS_PROCESS, ChosenWorkers
 from viscontact.studies.executors.local import BEHIND_MAIN
 from viscontact.studies.journal import Entry, Journal

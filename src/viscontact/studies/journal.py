@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.line_digests import DIGEST, with_digest
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.lock import DirectoryInUse, locked

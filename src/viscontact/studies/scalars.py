@@ -5,13 +5,13 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case import Case
 from viscontact.results.run_axis import RUN_AXES, SPEED, TIME, RunAxis

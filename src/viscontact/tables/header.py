@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.creep_tests import chosen_level
 from viscontact.tables.heading_cells import (
     HeadingCell,

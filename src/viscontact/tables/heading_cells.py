@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.creep_tests import STRAIN_UNITS, split_stress
 from viscontact.tables.names import QUANTITIES, Meaning, meaning
 from viscontact.units.dimensions import DIMENSIONS

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.text import Row, looks_like_number
 
 #: True for the text of a cell that names a column.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.creep_tests import STRAIN_UNITS
 from viscontact.tables.names import Data, meaning
 from viscontact.tables.table import Table, read_only

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Literal
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 Data = Literal["deviatoric", "shear", "uniaxial"]
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.headings import FoundTable, Names, find_table
 from viscontact.tables.sheets import is_spreadsheet, read_sheet, split_sheet
 from viscontact.tables.splitting import TextRows, rows_of_text

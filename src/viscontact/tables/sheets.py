@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.packed_files import read_packed
 from viscontact.tables.text import Row, looks_like_number, require_file
 from viscontact.tables.workbook_cells import read_workbook

@@ -7,9 +7,9 @@ import io
 import itertools
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.tables.text import MOST_ROWS, Row, looks_like_number, read_text
 
 _COMMENTS = ("#", "%", "//")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import difflib
 import re
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Upper limit on the rows of a table; larger records are to be thinned out.
 MOST_ROWS = 1_000_000

@@ -6,12 +6,13 @@ import math
 import time as clock
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Errors below this are due to the solver's tolerance and have no order.
 SOLVED = 1e-8

@@ -14,13 +14,14 @@ contact on the same mesh.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import WLF, Ageing, Arrhenius, PowerLaw
 from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
 from viscontact.bodies.loads import HarmonicTemperature, TemperatureHistory, ramp, step

@@ -6,12 +6,12 @@ import hmac
 import re
 import secrets
 import webbrowser
-from dataclasses import dataclass
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from starlette.requests import HTTPConnection
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.svg.html import element, written
 from viscontact.web.workspace.privacy import is_private, write_private
 

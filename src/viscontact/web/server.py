@@ -8,12 +8,12 @@ import threading
 import time as clock
 from collections.abc import Callable
 from contextlib import ExitStack, closing
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 import uvicorn
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.directory.lock import locked
 from viscontact.web.access import kept_token, open_page
 from viscontact.web.app import new_app

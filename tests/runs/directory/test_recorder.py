@@ -35,7 +35,7 @@ from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded import ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
-from viscontact.simulation.transient import frictional_contact
+from viscontact.simulation.transient import frictionless
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 
 COUNT = 12
@@ -311,13 +311,13 @@ def test_first_step_that_fails_changes_nothing(
     stop_after(Recorder(recorded), 3)
     before = contents(recorded.directory)
 
-    solve = frictional_contact.solve_contact
+    solve = frictionless.solve_contact
 
     def failing(*arguments: Any, **options: Any) -> ContactSolution:
         return dataclasses.replace(solve(*arguments, **options), converged=False)
 
     other = sphere(recorded.directory, sphere_run(0.2))
-    monkeypatch.setattr(frictional_contact, "solve_contact", failing)
+    monkeypatch.setattr(frictionless, "solve_contact", failing)
     record = Recorder(other)
     with pytest.raises(vc.ConvergenceError):
         list(record.steps())

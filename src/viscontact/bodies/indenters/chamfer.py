@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters.arc import arc_drop
 from viscontact.bodies.indenters.position_checks import acute_angle
 from viscontact.bodies.indenters.profile import Profile

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 
 POINTS = 1601
@@ -69,7 +68,7 @@ def _deepest(
         return at
     # The deepest point lies between those of the mesh.
     start = np.array([x[i[0]], y[j[0]]])
-    found = minimize(
+    found = scipy.optimize.minimize(
         lambda u: float(np.nan_to_num(indenter.gap(*(start + step * u)), posinf=1e30)) / step,
         np.zeros(2),
         method="Nelder-Mead",

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters.arc import arc_drop
 from viscontact.bodies.indenters.indenter import Indenter
 from viscontact.bodies.indenters.position_checks import positions

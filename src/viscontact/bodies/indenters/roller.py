@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters.arc import arc_drop
 from viscontact.bodies.indenters.crowns import CylindricalProfile, PartialCrown
 from viscontact.bodies.indenters.indenter import Indenter

@@ -7,12 +7,13 @@ between a spring and a dashpot.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.log_curve import mean_power
 from viscontact.bodies.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.bodies.laws.interconversion.oscillation import half_inverse

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.log_curve import narrow_mean
 from viscontact.bodies.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.bodies.laws.law import Law, slowing

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any, Self, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.creep_function import CreepFunction
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import positive, real_array

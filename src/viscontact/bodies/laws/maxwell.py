@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.law import slowing
 from viscontact.bodies.laws.series import CreepSeries, SeriesLaw
 from viscontact.bodies.laws.uniaxial import uniaxial

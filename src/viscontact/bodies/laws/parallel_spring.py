@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.cached_inverse import Inverse
 from viscontact.bodies.laws.interconversion.product_integration import Forcing
 from viscontact.bodies.laws.interconversion.volterra import onset

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, field, replace
 from functools import cached_property
 from typing import Literal
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.cached_inverse import Inverse
 from viscontact.bodies.laws.interconversion.curve_transform import oscillating
 from viscontact.bodies.laws.interconversion.log_curve import LogCurve

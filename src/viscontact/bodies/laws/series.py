@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Self
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.oscillation import (
     modulus_of_creep,
     modulus_of_relaxation,

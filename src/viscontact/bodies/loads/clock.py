@@ -11,7 +11,6 @@ reference temperature, without ageing, over the reduced time
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Shift
 from viscontact.bodies.laws.ageing import Ageing
 from viscontact.bodies.loads.temperature import TemperatureHistory

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
 from viscontact.units.numbers import finite

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.history import Control
 from viscontact.bodies.loads.program_sentences import (
     OF_FRICTION,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
 from viscontact.bodies.loads.motion import AtOrigin, checked_creepage
 from viscontact.units.formatting import format_quantity

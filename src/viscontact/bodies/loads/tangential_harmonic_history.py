@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.harmonic_history import STEPS_PER_CYCLE
 from viscontact.bodies.loads.tangential import (

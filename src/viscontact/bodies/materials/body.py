@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any, Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, finite, store

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Elastic, Law
 from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.material import Material

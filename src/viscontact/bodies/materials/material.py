@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, field, replace
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import (
     Ageing,
     BesideSpring,

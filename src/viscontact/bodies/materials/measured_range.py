@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, non_negative, positive, store
 

@@ -9,12 +9,11 @@ few terms would bend the clock.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.series_fits.residual_noise import Noise, noise_of
 from viscontact.bodies.series_fits.shift_rules import ENERGIES, ShiftRule
 from viscontact.bodies.series_fits.spectrum import (

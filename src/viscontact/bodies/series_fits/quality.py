@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.series_fits.spectrum import Observed, Spectrum, dense_spectrum
 
 #: Relative residuals of a column beyond which a fit misses it: root mean square, and largest [-].

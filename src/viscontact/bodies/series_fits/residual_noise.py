@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 _FIRST_BAND = 4  # frequencies of the lowest band, about as many as a fit takes up
 _CENTRES = (6.5, 15.5)  # of the next two bands

@@ -7,11 +7,10 @@ with exp(-t/τ), and to an oscillation with a²/(1 + a²) in phase and a/(1 + a�
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import WLF, Arrhenius, Shift, TabulatedShift
 from viscontact.bodies.laws.time_temperature import GAS_CONSTANT, LARGEST_FACTOR
 

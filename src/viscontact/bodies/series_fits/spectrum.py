@@ -17,12 +17,11 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.series_fits.responses import Response
 
 # Ten per decade: fits any other times to far below the scatter of a measurement.

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Shift
 from viscontact.bodies.loads.clock import ReducedTime
 from viscontact.bodies.loads.temperature import TemperatureHistory

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.parsing import parse_unit
 
 Spacing = float | tuple[float, float]

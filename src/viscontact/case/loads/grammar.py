@@ -12,9 +12,9 @@ import difflib
 import itertools
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case.loads.levels import Level, read_level
 from viscontact.case.quantities import POSITIVE, WithUnit
 from viscontact.units.formatting import quoted

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.history import Control
 from viscontact.case.quantities import WithUnit
 from viscontact.units.dimensions import DIMENSIONS

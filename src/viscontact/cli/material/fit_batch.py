@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 from viscontact.cli.material import fit_kinds
 from viscontact.cli.material.fit_options import FitArguments

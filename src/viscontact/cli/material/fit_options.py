@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Any, Self
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
 from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials import library as materials
 from viscontact.bodies.materials.cards import is_card, unread_program
 from viscontact.case import CaseError, read_material, read_section, shipped_material

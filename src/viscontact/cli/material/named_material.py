@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TypeGuard
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import SeriesLaw, Shift, TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.materials.library import Entry, Points
 from viscontact.bodies.materials.material import Material

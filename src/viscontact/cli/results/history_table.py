@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 
@@ -12,6 +11,7 @@ from rich.box import SIMPLE, SIMPLE_HEAD
 from rich.table import Table
 
 from viscontact.backend.arrays import Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.cli.results.accuracy import accuracy_lines, has_errors, knows_errors
 from viscontact.cli.results.stored import early_end
 from viscontact.cli.results.stored_findings import print_stored_findings

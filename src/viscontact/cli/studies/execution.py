@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import CaseError
 from viscontact.cli.studies.typed_options import as_typed
 from viscontact.cli.terminal.messages import INTERRUPTED, put, refuse, say, stop

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.cli.sweep.checks import MOST_READ, checked_jobs
 from viscontact.cli.sweep.common_cells import with_common_cells
 from viscontact.cli.sweep.recorded_sweep import (

@@ -7,9 +7,9 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case.yaml_source import SourceError, parse_value
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.processes.request import no_option

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.cli.sweep.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.run_files import FAILURE_NAME, MANIFEST_NAME

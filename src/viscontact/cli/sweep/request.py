@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.cli.sweep.plan_options import PlanOptions
 from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.execution.run_directory import chosen_directory

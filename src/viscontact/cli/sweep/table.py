@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -14,6 +13,7 @@ from rich.box import SIMPLE_HEAD
 from rich.measure import Measurement
 from rich.table import Table
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.results.formatting import format_percent, format_supported
 from viscontact.results.netcdf import open_results

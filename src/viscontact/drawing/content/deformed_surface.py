@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike
-from scipy.interpolate import RegularGridInterpolator
-from scipy.ndimage import distance_transform_edt
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import Map, Maps, maps_at
 from viscontact.drawing.content.relief import Relief, relief
 from viscontact.drawing.content.window import Window
@@ -52,7 +52,9 @@ class DeformedContact:
         cells = (self.map.snapshot.x, self.map.snapshot.y)
         # On the rim the bodies touch: the indenter is smooth there, the surface falls next to a
         # punch.
-        depth = RegularGridInterpolator(cells, _beyond_ends(self.indenter), bounds_error=False)
+        depth = scipy.interpolate.RegularGridInterpolator(
+            cells, _beyond_ends(self.indenter), bounds_error=False
+        )
         for curve in self.map.outline:
             yield np.column_stack([curve, depth(curve)])
 
@@ -108,5 +110,7 @@ def _sampled(at: Floats, limits: tuple[float, float]) -> tuple[Floats, Integers]
 
 def _beyond_ends(depth: Floats) -> Floats:
     """Values continued beyond a body's end by those of its nearest cell."""
-    nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
+    nearest = scipy.ndimage.distance_transform_edt(
+        np.isnan(depth), return_distances=False, return_indices=True
+    )
     return np.asarray(depth[tuple(nearest)])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -11,6 +10,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.loads import ApproachHistory, ForceHistory

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.along_run import steps_grow
 from viscontact.drawing.content.panel import FIRST, PERCENT, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.leakage.leakage import fields_of, instant_leakage, leakage

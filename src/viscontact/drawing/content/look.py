@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.panel import Ink
 from viscontact.results.formatting import format_with_error, format_with_error_in
 from viscontact.units.formatting import ReadableUnit, format_number, without_trailing_zeros

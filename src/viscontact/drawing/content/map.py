@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike
-from scipy.ndimage import label
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.compared_runs import Runs, headed_snapshots, runs_of
 from viscontact.drawing.content.panel import Axis, Units
 from viscontact.drawing.content.rim import rim_curves
@@ -69,7 +70,7 @@ class Map:
     @property
     def has_many_spots(self) -> bool:
         """True for a contact of so many spots that lines around them would cover the pressure."""
-        return bool(label(self.snapshot.in_contact)[1] > _MOST_SPOTS)
+        return bool(scipy.ndimage.label(self.snapshot.in_contact)[1] > _MOST_SPOTS)
 
     @property
     def ordinary(self) -> float:

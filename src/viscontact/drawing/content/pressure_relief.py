@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.ndimage import binary_dilation
+import scipy
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.drawing.content.relief import Relief, relief
@@ -111,4 +111,6 @@ def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
 
 def _neighbouring(contact: Bools) -> Bools:
     """Mask of the cells that share an edge or a corner with one in contact."""
-    return np.asarray(binary_dilation(contact, np.ones((3, 3), dtype=np.bool_)), dtype=np.bool_)
+    return np.asarray(
+        scipy.ndimage.binary_dilation(contact, np.ones((3, 3), dtype=np.bool_)), dtype=np.bool_
+    )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 import numpy as np
-from scipy.interpolate import splev, splprep
+import scipy
 
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.mechanics.contact.body_edge import Outline
@@ -147,18 +147,20 @@ def _spline(polygon: Corners) -> Corners:
         corners = _close(polygon)
         along = np.append(0.0, np.cumsum(np.hypot(*np.diff(corners, axis=0).T)))
         loose, curve = (_fit_spline(corners, along, scatter) for scatter in (_LOOSE, _CLOSE))
-        strays = np.hypot(*(np.transpose(splev(along, curve)) - corners).T)
+        strays = np.hypot(*(np.transpose(scipy.interpolate.splev(along, curve)) - corners).T)
         pieces = len(loose[0]) - 7  # three knots more at either end of a cubic
         if pieces <= _PIECES[0] + _PIECES[1] * len(polygon) and strays.max() <= _STRAY:
             finer = np.linspace(0.0, along[-1], _FINER * len(polygon) + 1)
-            return np.transpose(splev(finer, curve))
+            return np.transpose(scipy.interpolate.splev(finer, curve))
     return _close(_spread(polygon))
 
 
 def _fit_spline(corners: Corners, along: Floats, scatter: float) -> Any:
     """Periodic spline with a given mean-square distance from the corners [cells]."""
     left = len(corners) * scatter**2
-    (spline, _), *_ = splprep(corners.T, u=along, per=1, s=left, full_output=1, quiet=2)
+    (spline, _), *_ = scipy.interpolate.splprep(
+        corners.T, u=along, per=1, s=left, full_output=1, quiet=2
+    )
     return spline
 
 

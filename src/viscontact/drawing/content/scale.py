@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.look import PRESSURE, SIGNED, shades
 from viscontact.drawing.content.panel import Units
 from viscontact.units.formatting import ReadableUnit, readable_unit

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import BodyPlace, Map, body_of
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.scale import ColourScale, pressure_scale

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import Maps
 from viscontact.drawing.content.panel import Axis, Units
 from viscontact.drawing.figures import entry_of

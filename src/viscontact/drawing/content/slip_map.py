@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import Maps, maps_at
 from viscontact.results.fretting import fretting_cycles, require_grip
 from viscontact.results.shown_rows import shown_rows

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.stress_lines import Progress, part_of
 from viscontact.results.snapshots import Snapshot
 from viscontact.results.stress_source import StressSource

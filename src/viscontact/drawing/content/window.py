@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, readable_unit
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -12,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.figures import FigureEntry
 from viscontact.drawing.matplotlib.animations.animation import Animation
 

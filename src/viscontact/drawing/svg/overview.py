@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.svg.html import element, written
 from viscontact.units.visible import visible
 

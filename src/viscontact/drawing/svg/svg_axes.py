@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.panel import Axis
 from viscontact.drawing.content.scale import round_step
 from viscontact.units.formatting import clock_ticks, format_quantity, readable_unit

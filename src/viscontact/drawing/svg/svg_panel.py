@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 from xml.etree.ElementTree import Element
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.look import BLUE
 from viscontact.drawing.svg.html import element
 from viscontact.drawing.svg.svg_axes import AxisScale, linear

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Moments, RigidPlane, added

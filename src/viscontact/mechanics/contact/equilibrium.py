@@ -7,11 +7,12 @@ contact; its result is checked on the whole grid.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.conjugate_gradients import BoundedCG
 from viscontact.mechanics.contact.contact_residual import contact_residual
 from viscontact.mechanics.contact.domain import ContactDomain

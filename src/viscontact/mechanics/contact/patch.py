@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Field, Singles
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.response_parts import Operator
 from viscontact.mechanics.contact.rigid_balance import RigidPlane
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner

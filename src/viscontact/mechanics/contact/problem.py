@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.rigid_balance import Constraints
 

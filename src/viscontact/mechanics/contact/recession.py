@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import blocks_of
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.rim_crossings import Recession

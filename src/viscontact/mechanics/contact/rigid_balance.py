@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadPoint
 

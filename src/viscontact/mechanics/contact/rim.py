@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import Outline
 from viscontact.mechanics.contact.rim_crossings import MARGIN, Recession, locate_rim, places

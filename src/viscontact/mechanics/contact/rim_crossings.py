@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.straight_edge import EdgeLaw, edge_laws
 

@@ -14,11 +14,12 @@ Optim. 13, 865): all cells of the set are brought into contact at once, by GMRES
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.contact_residual import ContactResidual, contact_residual
 from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.patch import Patch

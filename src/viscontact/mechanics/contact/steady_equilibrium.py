@@ -10,10 +10,11 @@ h - s K p'; as p' converges, the terms with s cancel.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess

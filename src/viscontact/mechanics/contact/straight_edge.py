@@ -8,12 +8,12 @@ matter.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Normals (m, n) of edges: m steps across the edge for a cell along the line, n for one beside it.
 NORMALS = ((1, 0), (10, 1), (5, 1), (3, 1), (2, 1), (3, 2), (4, 3), (5, 4), (10, 9), (1, 1))

@@ -20,11 +20,10 @@ K. L. Johnson, Contact Mechanics, Cambridge (1985), eqs. 3.75c and 3.18b.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.periodic_influence import GAUSS_NODES, GAUSS_WEIGHTS
 from viscontact.mechanics.halfspace.shear_influence import over_cell

@@ -23,12 +23,12 @@ J. Tribol. 119 (1997) 493: the closed form of one layer.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 
 #: Wave number times thickness beyond which a layer is a half-space to rounding.

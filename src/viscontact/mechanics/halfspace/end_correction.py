@@ -14,12 +14,13 @@ functions is convolved along y by padded transforms, and the result is expanded.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.free_end import (

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Field
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.convolution import Convolution

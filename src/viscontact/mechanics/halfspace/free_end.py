@@ -21,13 +21,13 @@ which depends on Poisson's ratio only, is symmetric and positive, and is a short
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
 
 #: First and last place of the panels, and ratio of the ends of a panel. What a load sends nearer

@@ -17,12 +17,12 @@ the origin has the cosine 1/cosh t with the leg, and the sine tanh t.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.influence import FAR
 from viscontact.mechanics.halfspace.layered_influence import (
     CELL_RULE,

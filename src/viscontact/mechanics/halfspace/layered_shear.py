@@ -21,13 +21,13 @@ J. Appl. Phys. 21 (1950) 89: transfer of waves through layers.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 

@@ -26,7 +26,6 @@ the ray's angle.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -34,6 +33,7 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats, Integers, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.sampled_cells import SampledCells, sampled_cells
 from viscontact.mechanics.halfspace.smooth_kernel import (

@@ -21,13 +21,14 @@ Kluwer (1998), chapter 6.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, TypeAlias
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.influence import influence_coefficient
 from viscontact.units.formatting import format_quantity
 

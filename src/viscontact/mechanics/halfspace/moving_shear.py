@@ -8,12 +8,12 @@ and so has each response of layers, beyond its short waves, which are those of a
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Complexes, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.influence import influence_coefficient

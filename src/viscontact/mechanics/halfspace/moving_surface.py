@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, joined
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Points of a polynomial. Over a length that is as long as the distance of its middle from a
 #: singularity beside it, or twice as long as that from its end to one ahead of it, the error falls

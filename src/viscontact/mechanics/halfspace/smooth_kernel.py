@@ -19,13 +19,13 @@ M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 9.2.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 
 #: Direction of the ray of integration, and step of the logarithm of the wave number on it.

@@ -13,11 +13,10 @@ which they were made orthonormal on the way up: nothing grows with depth, and no
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.elastic_stack import (
     ElasticStack,
     decaying,

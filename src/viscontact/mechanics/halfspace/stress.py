@@ -7,13 +7,12 @@ traction are the elastic ones: they do not depend on the modulus, hence on the c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.mechanics.halfspace.stress_influence import COMPONENTS, EXCHANGED

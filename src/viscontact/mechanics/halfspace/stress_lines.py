@@ -11,12 +11,12 @@ under a pressure are odd, and the reverse; under one along y likewise across.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import as_reals, fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.periodic_stress import periodic_stress_coefficients

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.shear_stress_influence import shear_stress_coefficients
 from viscontact.mechanics.halfspace.stack_waves import WaveStresses
 from viscontact.mechanics.halfspace.stress_influence import EXCHANGED, stress_coefficients

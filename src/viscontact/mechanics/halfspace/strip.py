@@ -28,7 +28,6 @@ and to 6 x x' / (W² (1 - ν)(3 + ν)) under odd ones, which bend it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -36,6 +35,7 @@ import scipy  # its special functions are imported at their first use
 from numpy.polynomial import chebyshev
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
 

@@ -11,11 +11,10 @@ where the distance D is free, as the body has no datum.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.end_correction import FIRST_WAVE, NODES, EndBasis, row_means
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.free_end import HIGHEST, end_functions, pivoted_cholesky

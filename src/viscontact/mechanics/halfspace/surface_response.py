@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 class SurfaceResponse(ABC):

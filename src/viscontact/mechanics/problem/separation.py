@@ -27,7 +27,7 @@ M. Bebendorf, Numer. Math. 86 (2000) 565: cross approximation.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -35,6 +35,7 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material, uniaxial_compression

@@ -8,12 +8,12 @@ that it couples.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.halfspace.layered_shear import LayeredShear

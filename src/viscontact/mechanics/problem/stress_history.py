@@ -21,13 +21,14 @@ at the same depth; twice that is stated.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import SeriesLaw
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material

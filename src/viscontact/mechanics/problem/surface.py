@@ -13,12 +13,12 @@ of proportional creep functions are added.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import repeat
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.body import Body

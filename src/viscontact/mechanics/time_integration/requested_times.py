@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.units.numbers import as_real, positive, store, whole
 
 #: Range of the relative error that steps chosen by the run may cause [-].

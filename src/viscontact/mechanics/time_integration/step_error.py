@@ -13,11 +13,12 @@ resolved them all would be as many as the cells, and the other cells would hardl
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.clock import TIME

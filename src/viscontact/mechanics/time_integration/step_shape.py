@@ -10,12 +10,12 @@ Wanner 1996, Solving Ordinary Differential Equations II, section V.1).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.compliance import ContactCompliance
 
 #: Maps fields to a larger grid.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.heating.power_curve import PowerCurve
 
 #: Least temperature rise that counts [K], samples of the rise, and the highest speed at which the
@@ -71,7 +71,7 @@ def all_balances(excess: Callable[[Floats], Floats], samples: Floats) -> list[Ba
         before, here, after = np.sign(values[n]) * values[n - 1 : n + 2]
         if before > 0 and after > 0 and here <= min(before, after):
             sign = float(np.sign(values[n]))
-            found = minimize_scalar(
+            found = scipy.optimize.minimize_scalar(
                 lambda t, sign=sign: sign * one(t),
                 bounds=(samples[n - 1], samples[n + 1]),
                 method="bounded",
@@ -84,7 +84,7 @@ def all_balances(excess: Callable[[Floats], Floats], samples: Floats) -> list[Ba
     balances = []
     for n in range(len(places) - 1):
         if signs[n] * signs[n + 1] < 0:
-            zero = brentq(one, places[n], places[n + 1], xtol=1e-10)
+            zero = scipy.optimize.brentq(one, places[n], places[n + 1], xtol=1e-10)
             balances.append(Balance(float(zero), bool(signs[n] > 0)))
         elif signs[n] == 0:
             balances.append(Balance(places[n], bool(n == 0 or signs[n - 1] > 0)))
@@ -184,7 +184,7 @@ def runaway(
     inner = np.flatnonzero((speeds[1:-1] > speeds[:-2]) & (speeds[1:-1] >= speeds[2:])) + 1
     if not inner.size:
         return None
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         lambda t: -float(balance_speed(curve, sink, np.array([t]))[0]),
         bounds=(temperatures[inner[0] - 1], temperatures[inner[0] + 1]),
         method="bounded",

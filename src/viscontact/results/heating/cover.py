@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.legendre import legder, leggauss, legval, legvander
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Polynomials over the thickness: a steady profile is a parabola, and is met exactly; that of a
 #: heating is smooth once its start has spread over a tenth of the thickness.

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.heating.cover import Cover
 from viscontact.results.heating.rolling_body import RollingBody
 from viscontact.units.numbers import positive

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.results.heating.balances import Reach
@@ -45,7 +45,7 @@ def heating(
         return reach.high - float(cover.mean(modes))
 
     leaves.terminal = True  # type: ignore[attr-defined]
-    done = solve_ivp(
+    done = scipy.integrate.solve_ivp(
         *(rate, (0.0, float(times[-1])), start),
         method="BDF",
         jac=slopes,

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
+import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Shift
 
 #: Fewest speeds of a curve.
@@ -36,8 +35,10 @@ class PowerCurve:
     shift: Shift  # referred to the temperature of the law
 
     @cached_property
-    def _spline(self) -> CubicSpline:
-        return CubicSpline(np.log(self.speeds), np.log(self.resistance), extrapolate=False)
+    def _spline(self) -> scipy.interpolate.CubicSpline:
+        return scipy.interpolate.CubicSpline(
+            np.log(self.speeds), np.log(self.resistance), extrapolate=False
+        )
 
     def power(self, temperature: Floats, speed: float | Floats) -> Floats:
         """Power at temperatures [K] and speeds [m/s] [W]; NaN beyond the curve."""
@@ -82,7 +83,7 @@ class PowerCurve:
             return np.nan
         log_speeds, logs = np.log(self.speeds), np.log(self.resistance)
         kept = np.unique(np.r_[0 : logs.size : 2, logs.size - 1])
-        coarse = CubicSpline(log_speeds[kept], logs[kept])
+        coarse = scipy.interpolate.CubicSpline(log_speeds[kept], logs[kept])
         return float(np.abs(np.expm1(coarse(log_speeds) - logs)).max()) / _GAIN
 
     def relative_error(self, temperature: float, speed: float) -> float:
@@ -99,4 +100,8 @@ class PowerCurve:
 
         if beyond(low) <= 0:
             return low
-        return high if beyond(high) >= 0 else float(brentq(beyond, low, high, xtol=1e-10))
+        return (
+            high
+            if beyond(high) >= 0
+            else float(scipy.optimize.brentq(beyond, low, high, xtol=1e-10))
+        )

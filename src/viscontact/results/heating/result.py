@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.heating.heat_notes import celsius
 from viscontact.units.display import StudyResult
 from viscontact.units.formatting import format_quantity

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Roller
 from viscontact.bodies.laws import Elastic, Shift
 from viscontact.bodies.materials.layers import Layered, named_parts

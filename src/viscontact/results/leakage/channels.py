@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: "period": a channel closes on itself through the period; "pressure": from face to face.
 Ends = Literal["period", "pressure"]

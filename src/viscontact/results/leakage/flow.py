@@ -20,7 +20,6 @@ Flow, Hemisphere 1980, section 4.2-3.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -28,6 +27,7 @@ import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.leakage.channels import FlowAxis, components
 
 #: Conductance of a face between cells of two gaps, over 1/12.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.state import LEAKAGE, LEAKAGE_Y, ContactState
 from viscontact.results.leakage.fluid import flow_axis, fluid_of
 from viscontact.results.leakage.instant import MEMORY, MOST_UNKNOWNS, InstantLeakage

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.persson import rough_waves
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.recorded_theory import recorded_surface

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from viscontact import __version__
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.lock_check import LockCheck, never_lost

@@ -7,9 +7,9 @@ import os
 import re
 import time as clock
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_files import LOCK_NAME
 
 #: Time without renewal after which a lease may be taken over [s].

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any, Self
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.analysis import Analysis, States, fits_single_precision
 from viscontact.runs.directory.atomic_files import fresh_name

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case.case import Case
 from viscontact.case.errors import dotted
 from viscontact.results.filed_case import FiledCase

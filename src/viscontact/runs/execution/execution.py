@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.command_error import refuse, stop
 from viscontact.runs.directory.failure import remove_failure

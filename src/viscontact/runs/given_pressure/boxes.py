@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.given_pressure.patches import CORNERS
 
 #: Values of a formula at points, of arrays that have one shape after broadcasting.

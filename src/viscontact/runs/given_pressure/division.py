@@ -8,11 +8,12 @@ distance. Of a box that is close enough the mean and the slopes are found from s
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.given_pressure.boxes import Boxes
 from viscontact.runs.given_pressure.edge_cut import EDGES, cut
 from viscontact.runs.given_pressure.patches import Patches, rectangle_edges, together

@@ -6,11 +6,10 @@ chord between these places, moved by two thirds of its rise over it, as the area
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.given_pressure.boxes import INSIDE, NODES, Boxes
 from viscontact.runs.given_pressure.patches import CORNERS, Patches
 

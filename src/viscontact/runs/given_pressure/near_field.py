@@ -8,13 +8,14 @@ an edge. It dies out over a few cells, so that all surfaces are half-spaces here
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import convolve
+import scipy
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.influence import influence_coefficient
 from viscontact.mechanics.halfspace.polygon_influence import edge_integrals
@@ -108,7 +109,7 @@ class NearField:
             (n // 2, n // 2) if periodic else (0, 0)
             for n, periodic in zip(table.shape, self.grid.periodic, strict=True)
         ]
-        found = convolve(np.pad(field, beyond, mode="wrap"), table, mode="constant")
+        found = scipy.ndimage.convolve(np.pad(field, beyond, mode="wrap"), table, mode="constant")
         (along, _), (across, _) = beyond
         (nx, ny) = field.shape
         return np.asarray(found[along : along + nx, across : across + ny])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.polygon_influence import edge_integrals
 from viscontact.runs.given_pressure.cell_series import legendre_to
 

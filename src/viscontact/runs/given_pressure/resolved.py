@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import maximum_filter
+import scipy
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.runs.given_pressure.boxes import TRIED, Boxes, PointValues
 from viscontact.runs.given_pressure.cell_series import MULTIPOLES, legendre_to
@@ -154,7 +155,7 @@ def _rough(cells: Boxes, series: Floats, tolerance: float, grid: Grid) -> Bools:
     looked = found.copy()
     modes = ["wrap" if each else "constant" for each in grid.periodic]
     while True:
-        around = maximum_filter(found.reshape(grid.shape), 3, mode=modes).ravel()
+        around = scipy.ndimage.maximum_filter(found.reshape(grid.shape), 3, mode=modes).ravel()
         ring = np.flatnonzero(around & ~looked)
         if not ring.size:
             return found.reshape(grid.shape)

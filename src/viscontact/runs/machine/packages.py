@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from itertools import chain
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Extras for developers, and those that contain others.
 _NOT_FOR_USERS = ("all", "dev", "docs", "test")

@@ -10,8 +10,9 @@ import sys
 import tempfile
 from collections.abc import Iterable
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, RESUMABLE, STOPPED
 

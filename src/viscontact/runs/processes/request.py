@@ -6,8 +6,10 @@ import os
 import shlex
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Exit codes: finished, stopped during the run, refused before it, interrupted.
 DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import MixedHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.cell_fields import is_even
@@ -45,7 +46,6 @@ from viscontact.simulation.transient.setup import RunSetup, plan_history
 
 if TYPE_CHECKING:
     from viscontact.simulation.accuracy.event_runs import OwnEvents
-    from viscontact.simulation.transient.segments_so_far import EventError
 
 #: Mean number of steps between two times of the run from which coarser runs have all these times.
 STEPS_BETWEEN = 2
@@ -179,7 +179,7 @@ def march_coarser_run(
         else:
             for state in transient.March(run, warns=False):
                 after_step(state)
-    except (ConvergenceError, DomainError, EventError):
+    except (ConvergenceError, DomainError, transient.EventError):
         return None
     result = observed.result(divides_steps=coarser_run.divides_steps)
     return result if events is None else result.at(events.own, segment_ends=events.ends)

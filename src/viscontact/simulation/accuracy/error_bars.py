@@ -9,11 +9,12 @@ the grids. The largest relative difference at an instant and the ones next to it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.accuracy.coarser_results import (
     CoarserResult,

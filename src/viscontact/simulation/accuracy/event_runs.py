@@ -8,12 +8,13 @@ and at the event itself.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import DomainError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.loads import MixedHistory
 from viscontact.mechanics.problem.problem import Problem

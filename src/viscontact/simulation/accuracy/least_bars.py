@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.simulation.accuracy.coarser_grids import straight_ends
 from viscontact.simulation.accuracy.coarser_results import History, indentation
 from viscontact.simulation.accuracy.curvature_jumps import curvature_jumps

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
 
 #: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more

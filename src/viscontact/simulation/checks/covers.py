@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from itertools import chain, repeat
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material

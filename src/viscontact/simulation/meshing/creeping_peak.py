@@ -16,12 +16,13 @@ from elastic strips (`strip_contact`), without a run:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.clock import TIME, Clock

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.simulation.meshing.creeping_peak import ContactGrowth
 
 #: Ratio of the cells of neighbouring meshes along an axis, and of the finest and the coarsest.

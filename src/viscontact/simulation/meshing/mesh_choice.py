@@ -20,11 +20,12 @@ from __future__ import annotations
 
 import logging
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import MIN_CELLS_ACROSS, AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.rounding import rounding_remedy

@@ -18,13 +18,13 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import MESH_QUANTITIES
 from viscontact.simulation.meshing.trial_mesh import PEAK, ElasticContact, MeshTrial, try_mesh

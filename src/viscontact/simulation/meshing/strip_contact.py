@@ -6,13 +6,13 @@ what cells do to a growing contact, at the cost of one factorisation.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import MESH_QUANTITIES, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadPoint

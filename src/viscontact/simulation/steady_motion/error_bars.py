@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.rim import Rim
 from viscontact.mechanics.state import MOTION, ContactState

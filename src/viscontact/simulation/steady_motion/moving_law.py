@@ -8,12 +8,13 @@ relaxed one. Of layers each term of the surface has a law.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.clock import TIME
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance

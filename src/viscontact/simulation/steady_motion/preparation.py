@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.mechanics.contact.domain import mirrored_axes

@@ -9,11 +9,11 @@ one lattice of cells, so that their fields have common coordinates.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.moving_domain import COARSEST
 from viscontact.simulation.steady_motion.contact import SteadyContact, SteadySolver

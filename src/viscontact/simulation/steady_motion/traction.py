@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Field, Floats
 from viscontact.backend.errors import ConvergenceError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.discs import lengths

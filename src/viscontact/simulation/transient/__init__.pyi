@@ -8,7 +8,7 @@ from .march import March
 from .moving_body import cells_seen
 from .moving_contact import MovingContact, StandingContact
 from .provenance import contact_event_attributes, describe_problem, run_attributes
-from .segments_so_far import ProgramCourse
+from .segments_so_far import EventError, ProgramCourse
 from .slip_step import symmetry_of
 from .zone_passage import ZonePassage
 
@@ -17,6 +17,7 @@ __all__ = [
     "AdhesiveStep",
     "ContactEvents",
     "CoupledContact",
+    "EventError",
     "EventSearch",
     "FrictionalContact",
     "March",

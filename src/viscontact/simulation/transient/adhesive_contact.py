@@ -8,11 +8,11 @@ stable state that the descent finds.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.mechanics.contact.adhesion.equilibrium import (
     released,

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import astuple
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.state import ContactEvent, ContactState, EventKind, Outcome, as_event
 from viscontact.mechanics.time_integration.restart_data import RestartData
 

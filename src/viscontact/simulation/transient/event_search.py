@@ -11,7 +11,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, SlidingError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import Condition, MixedHistory
 from viscontact.bodies.loads.program_sentences import SLIDING
 from viscontact.mechanics.contact.domain import ContactDomain

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain

@@ -11,11 +11,12 @@ value r_m at the end of the step before.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.region import Region, ShearDomain
 from viscontact.mechanics.halfspace.shear_filter import PairFilter
 from viscontact.mechanics.problem.shear_terms import ShearTerms

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Flags, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.discs import lengths, on_circle
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.problem import SlipSolution

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, SlidingError
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.tangential import TangentialPoint
 from viscontact.mechanics.contact.friction.entry import OfLayers, entry_compliance
 from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.state import Outcome
 

@@ -16,11 +16,12 @@ from __future__ import annotations
 
 import math
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.mechanics.contact.clearance import just_clear
 from viscontact.mechanics.contact.domain import ContactDomain

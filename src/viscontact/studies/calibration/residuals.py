@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.calibration.response import Experiment, Mounting, RecordRun
 from viscontact.studies.calibration.search import NoResidualsError
 from viscontact.studies.calibration.unknowns import (

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.bodies.loads.history import Control

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -11,6 +10,7 @@ from scipy.special import stdtrit
 from scipy.stats import qmc
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.evaluation import BudgetSpentError, Level
 
 #: Step of the differences, in parts of the ranges: well above the tolerance of the solver.

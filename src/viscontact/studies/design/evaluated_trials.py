@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.objectives import Objective, PenalisedCost
 from viscontact.studies.design.scores import Foreseen, Point, Score

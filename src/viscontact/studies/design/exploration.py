@@ -5,12 +5,13 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 from scipy.optimize import direct
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.local_search import LEAST_GAIN
 from viscontact.studies.design.scores import Foreseen, Point, Score
 

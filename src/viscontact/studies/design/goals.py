@@ -6,11 +6,11 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.sweep_axes import key_label
 from viscontact.results.variables import SCALARS
 from viscontact.studies.scalars import At, Value, known_scalar, magnitude

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.goals import Constraint, Goal, ParameterGoal
 from viscontact.studies.design.scores import KNOWN_PENALTY, PENALTY, Point, Score, penalty
 from viscontact.studies.design.trials import Trial

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.space import Choice, Range, Space, given_scatter
 from viscontact.studies.sweep.designs import NOTHING_VARIED, Design, EqualValuesError, grid_design
 from viscontact.units.parsing import parse_any_quantity

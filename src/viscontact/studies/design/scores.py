@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.evaluation import Level
 
 Point = tuple[float, ...]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from itertools import product
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.exploration import UNFEASIBLE_PART, Exploration
 from viscontact.studies.design.local_search import LocalSearch
 from viscontact.studies.design.scores import (

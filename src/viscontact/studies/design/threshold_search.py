@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.local_search import LEAST_GAIN
 from viscontact.studies.design.scores import Evaluate, Found, Point, Score, closest, ranked
 from viscontact.studies.design.surrogate import Surrogate

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.case_values import case_with, result_with
 from viscontact.studies.design.goals import Constraint, Goal
 from viscontact.studies.design.scenarios import Scenario

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.design.goals import NONE, Constraint, Goal
 from viscontact.studies.evaluation import Level
 from viscontact.studies.scalars import Value

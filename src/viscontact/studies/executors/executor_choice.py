@@ -6,9 +6,9 @@ import multiprocessing
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.studies.executors.local import LocalWorkers
 from viscontact.units.numbers import whole

@@ -9,11 +9,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass
 from functools import partial
 from multiprocessing import resource_tracker
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.executors.task import ATTEMPTS, RecordedTask, TaskEnd
 from viscontact.studies.executors.worker import GROUP_SIGNALS, begin_worker, perform_in_worker
 

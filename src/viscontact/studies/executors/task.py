@@ -7,10 +7,11 @@ import threading
 import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Protocol, Self
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.state import ContactState
 from viscontact.results.run_files import ATTEMPT_NAME
 from viscontact.runs.command_error import CommandError

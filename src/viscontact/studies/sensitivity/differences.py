@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

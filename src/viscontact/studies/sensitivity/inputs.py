@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import Case
 from viscontact.case.errors import KeyPath, dotted
 from viscontact.studies.sweep.axes import coordinate

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_axis import RUN_AXES, RunAxis
 from viscontact.results.sweep_axes import over_of
 from viscontact.studies.scalars import At, Value, known_scalar, magnitude, magnitudes

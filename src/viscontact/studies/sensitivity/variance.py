@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.stats import bootstrap, sobol_indices
 
 from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Resamples of the bootstrap, and the level of its intervals.
 RESAMPLES, LEVEL = 999, 0.95

@@ -6,13 +6,13 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.studies.sweep.manifest import SweepRun
 from viscontact.units.parsing import parse_any_quantity, parse_quantity
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import read_case
 from viscontact.runs import run_memory
 from viscontact.runs.analysis import Analysis

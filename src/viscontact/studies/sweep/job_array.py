@@ -6,9 +6,10 @@ import math
 import re
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
+
+from viscontact.backend.lazy_dataclass import dataclass
 
 #: Most tasks of an array; SLURM has 1001 unless its administrators change MaxArraySize.
 MOST_TASKS = 1000

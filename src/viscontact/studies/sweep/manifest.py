@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.line_digests import DIGEST, with_digest
 from viscontact.results.run_files import MANIFEST_NAME
 from viscontact.runs.directory.atomic_files import replacing

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import os
 from contextlib import suppress
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.line_digests import read_entries
 from viscontact.results.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked

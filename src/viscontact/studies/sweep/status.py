@@ -5,10 +5,11 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from statistics import median
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.run_files import (
     CASE_NAME,
     MANIFEST_NAME,

@@ -6,7 +6,6 @@ import json
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from inspect import signature
 from os import PathLike
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import CaseError, read_case
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.single import simulate

@@ -5,10 +5,11 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
 from viscontact.case.loads.temperature import spelled_temperature

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
 from viscontact.case.data_file import is_plain_name
 from viscontact.drawing.content.look import Look

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import MixedHistory
 from viscontact.bodies.materials.layers import Layered, creeping_laws, without_ends
 from viscontact.bodies.materials.material import Material

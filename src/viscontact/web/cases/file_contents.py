@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.surfaces import read_surface
 from viscontact.identification.instrument_curves import is_instrument_file
 from viscontact.tables import Table, read_table

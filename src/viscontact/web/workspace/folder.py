@@ -10,13 +10,14 @@ import sys
 import time as clock
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import TypeAdapter
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case.data_file import is_plain_name
 from viscontact.results.run_files import CASE_NAME, LOCK_NAME
 from viscontact.runs.directory.atomic_files import put_in_place

@@ -6,13 +6,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from colorsys import hls_to_rgb, rgb_to_hls
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import xarray as xr
 from matplotlib.figure import Figure
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.choice import FigureChoice, UnknownFigureError, require_one_axis
 from viscontact.drawing.matplotlib.layout.saving import written
 from viscontact.results.netcdf import open_results

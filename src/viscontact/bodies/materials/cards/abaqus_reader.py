@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from os import PathLike
 from pathlib import Path
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import WLF, Arrhenius, Shift
 from viscontact.bodies.laws.time_temperature import GAS_CONSTANT
 from viscontact.bodies.materials.cards import time_dependence

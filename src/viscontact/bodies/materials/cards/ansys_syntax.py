@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.cards.numbers import card_number
 
 _ASSIGNMENT = re.compile(r"(?P<name>[A-Za-z]\w{0,31})\s*=\s*(?P<value>[^,=]+)")

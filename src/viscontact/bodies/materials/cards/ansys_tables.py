@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.cards import time_dependence
 from viscontact.bodies.materials.cards.ansys_syntax import Command
 

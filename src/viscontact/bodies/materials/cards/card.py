@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from decimal import Decimal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Shift
 from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable

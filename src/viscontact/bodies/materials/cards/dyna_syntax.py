@@ -9,9 +9,10 @@ keyword); a line with a comma has its fields between the commas; a dollar sign b
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.cards.numbers import card_number
 
 _STANDARD, _LONG = 10, 20

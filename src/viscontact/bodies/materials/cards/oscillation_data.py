@@ -5,11 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import BesideSpring, Law, PowerLaw, RelaxationSeries
 from viscontact.bodies.materials.cards.prony_terms import Moduli, with_volume
 from viscontact.bodies.materials.material import Material

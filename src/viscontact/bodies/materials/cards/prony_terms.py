@@ -8,8 +8,8 @@ left after all relaxation, G_inf = G_0 (1 - sum g_i).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Elastic, Law, RelaxationSeries, SeriesLaw
 from viscontact.bodies.materials.material import Material
 from viscontact.units.formatting import format_quantity

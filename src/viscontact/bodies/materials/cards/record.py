@@ -5,9 +5,10 @@ A reader of one program returns records; `card` makes the material of each.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import Elastic, Shift
 from viscontact.bodies.materials.cards.card import Card
 from viscontact.bodies.materials.cards.prony_terms import Moduli, Terms, relaxing_material

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from typing import Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws import TabulatedCreep, TabulatedRelaxation
 from viscontact.bodies.materials.cards.prony_terms import Moduli, with_volume
 from viscontact.bodies.materials.material import Material

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance.base import ContactCompliance
 from viscontact.units.numbers import store

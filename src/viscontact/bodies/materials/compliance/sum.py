@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.laws.interconversion.volterra import invert
 from viscontact.bodies.materials.compliance.base import ContactCompliance
 from viscontact.units.numbers import store

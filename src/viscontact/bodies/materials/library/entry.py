@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -11,6 +10,7 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.library.points import Points, read_points
 from viscontact.units.parsing import parse_quantity
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -13,6 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.along_run import along_run, suits_log_time, within_span
 from viscontact.drawing.content.history import drawn_scalars, history_panel, needed_variables
 from viscontact.drawing.content.scene import Scene, scene_of

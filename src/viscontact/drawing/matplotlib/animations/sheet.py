@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.window import Window
 from viscontact.drawing.matplotlib.layout import style
 

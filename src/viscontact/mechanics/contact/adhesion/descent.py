@@ -10,11 +10,12 @@ exist.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.adhesion.newton import newton_search
 from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, attraction
 from viscontact.mechanics.contact.domain import ContactDomain

@@ -17,11 +17,10 @@ balances.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveResidual,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Singles
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.residual import SlipResidual

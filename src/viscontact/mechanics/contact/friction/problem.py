@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 from viscontact.backend.arrays import Bools, Flags, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.mechanics.halfspace.shear_filter import PairFilter
 

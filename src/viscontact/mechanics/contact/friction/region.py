@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.problem import ShearBlock

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions, reached_circles
 from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.problem import SlipProblem

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
+from viscontact.backend.lazy_dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,12 +17,12 @@ ahead of them on, which is the inverse of the difference, and the inverse of T.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Field, Flags, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.krylov import gmres, norm
 from viscontact.mechanics.halfspace.shear_filter import PairFilter

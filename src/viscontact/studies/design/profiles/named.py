@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import CylindricalProfile, FullCrown, LogarithmicProfile
 from viscontact.bodies.indenters.logarithmic import JOHNS_GOHAR
 from viscontact.bodies.indenters.profile import Profile

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.case import Case
 from viscontact.results.formatting import format_with_error
