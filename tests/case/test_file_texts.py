@@ -8,7 +8,6 @@ import pytest
 from closeness import close_to
 from viscontact.case import toml_source, yaml_source
 from viscontact.case.aliases import _half, resolved, value_at
-from viscontact.case.data_file import is_plain_name
 from viscontact.case.document import as_written
 from viscontact.case.errors import dotted
 from viscontact.case.indenters.shapes import Sphere, combined
@@ -16,6 +15,7 @@ from viscontact.case.loads.grammar import Form, read_form
 from viscontact.case.loads.levels import Level, read_level
 from viscontact.case.materials.layers import spelled_out
 from viscontact.case.overrides import key_path
+from viscontact.case.plain_names import is_plain_name
 from viscontact.case.time_grid_output import (
     Output,
     early_fields,

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
 
+from viscontact.case.plain_names import is_plain_name
 from viscontact.case.quantities import Section
 from viscontact.tables import with_typed_meanings
-
-#: Device names of Windows, with any suffix.
-_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d) *(\.|$)", re.IGNORECASE)
 
 
 def beside_the_case(name: str, info: ValidationInfo) -> str:
@@ -25,18 +22,6 @@ def beside_the_case(name: str, info: ValidationInfo) -> str:
             "files in its own folder"
         )
     return str(Path(context.get("folder", "."), name))
-
-
-def is_plain_name(name: str) -> bool:
-    """True if a name is that of a file in the same folder, on any system."""
-    kinds = (PurePosixPath, PureWindowsPath)
-    is_whole = bool(name) and all(kind(name).name == name for kind in kinds)
-    return is_whole and not name.startswith(".") and name.isprintable() and not _is_special(name)
-
-
-def _is_special(name: str) -> bool:
-    """True if Windows reads the name as a device or as another name."""
-    return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
 
 
 def at_key(why: str) -> str:

@@ -2,3 +2,8 @@
 
 Only the command `serve` imports it.
 """
+
+import lazy_loader
+
+# Names of __init__.pyi, each loaded at its first use: the page is shown before.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,24 +10,30 @@ from collections.abc import Callable
 from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import uvicorn
 
+from viscontact import web
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.runs.directory.lock import locked
-from viscontact.web.access import kept_token, open_page
-from viscontact.web.app import new_app
-from viscontact.web.calculator import IDLE_INTERVAL, Calculator
+from viscontact.web.access import Access, kept_token, open_page
 from viscontact.web.connections import LimitedConnection
-from viscontact.web.runs.queue import usual_at_once
+from viscontact.web.front import Front
+from viscontact.web.guard import Guard
 from viscontact.web.workspace.folder import Folder, usual_folder
 from viscontact.web.workspace.privacy import owner_only
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
 
 HOST = "127.0.0.1"
 
 #: Ports tried in turn by default.
 USUAL_PORTS = range(8377, 8387)
 
+#: Time between two looks at what asks the server to end [s].
+_INTERVAL = 0.1
 #: Time for unfinished answers when the server ends [s].
 _LAST_ANSWERS = 4
 #: Connections that wait to be accepted, and that are accepted at once.
@@ -80,9 +86,9 @@ def serve(
         check = opened.enter_context(locked(path))
         folder = Folder(path)
         token = kept_token(path) if service.needs_token else ""
-        calculator = Calculator(folder, service.at_once or usual_at_once(), keeps_spare=True)
+        front = Front(partial(_application, folder, service.at_once))
         config = uvicorn.Config(
-            new_app(calculator, token),
+            Guard(front, Access(token)),
             http=LimitedConnection,
             backlog=_BACKLOG,
             log_level="error",  # warnings are about what clients send
@@ -98,13 +104,19 @@ def serve(
             return is_to_stop()
 
         started = partial(on_start, service.address(token))
-        _run(uvicorn.Server(config), service.listener, calculator, is_over, started)
+        _run(uvicorn.Server(config), service.listener, front, is_over, started)
+
+
+def _application(folder: Folder, at_once: int | None) -> FastAPI:
+    """Import what answers with cases and runs, and make its application."""
+    calculator = web.Calculator(folder, at_once or web.usual_at_once(), keeps_spare=True)
+    return web.unguarded(calculator)
 
 
 def _run(
     server: uvicorn.Server,
     listener: socket.socket,
-    calculator: Calculator,
+    front: Front,
     is_to_stop: Callable[[], bool],
     on_start: Callable[[], None],
 ) -> None:
@@ -113,13 +125,13 @@ def _run(
     thread.start()
     try:
         while not server.started and thread.is_alive():
-            clock.sleep(IDLE_INTERVAL)
+            clock.sleep(_INTERVAL)
         if server.started:
             on_start()
         while thread.is_alive() and not is_to_stop():
-            clock.sleep(IDLE_INTERVAL)
+            clock.sleep(_INTERVAL)
     finally:
-        calculator.is_to_end = True
+        front.end()
         server.should_exit = True
         thread.join()
 

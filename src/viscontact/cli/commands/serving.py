@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
@@ -117,8 +118,15 @@ def _server() -> Any:
     except ModuleNotFoundError as error:
         if error.name not in _NEEDED:
             raise
-        refuse(f"the calculator page needs {error.name}: pip install 'viscontact[web]'")
+        _refuse_without(error.name)
+    for name in _NEEDED:  # some are imported after the first page only
+        if name not in sys.modules and find_spec(name) is None:
+            _refuse_without(name)
     return server
+
+
+def _refuse_without(package: str) -> NoReturn:
+    refuse(f"the calculator page needs {package}: pip install 'viscontact[web]'")
 
 
 def _has_display() -> bool:

@@ -4,6 +4,7 @@ Objects call it by themselves (`viscontact.units.display`). Drawings are SVG wri
 that they need no plotting library, take the colours of the page around them, and stay small.
 """
 
-from viscontact.drawing.svg.display import display_html, display_text
+import lazy_loader
 
-__all__ = ["display_html", "display_text"]
+# Names of __init__.pyi, each loaded at its first use: pages need the elements of HTML only.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -11,7 +11,7 @@ from typing import Any
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
-from viscontact.case.data_file import is_plain_name
+from viscontact.case.plain_names import is_plain_name
 from viscontact.drawing.content.look import Look
 from viscontact.drawing.plotly.indentation_fits import (
     contact_point,

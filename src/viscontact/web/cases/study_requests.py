@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 import time as clock
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import Case, CaseError, read_case_text
 from viscontact.results.variables import SCALARS
 from viscontact.studies.case_values import without_option

@@ -5,12 +5,12 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import CaseError, read_case_text
 from viscontact.drawing.content.design import parameters_of, shown_scalars
 from viscontact.drawing.content.look import Look

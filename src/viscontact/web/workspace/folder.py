@@ -18,7 +18,7 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.case.data_file import is_plain_name
+from viscontact.case.plain_names import is_plain_name
 from viscontact.results.run_files import CASE_NAME, LOCK_NAME
 from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.web.workspace.privacy import make_private

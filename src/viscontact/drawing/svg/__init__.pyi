@@ -1,0 +1,3 @@
+from .display import display_html, display_text
+
+__all__ = ["display_html", "display_text"]
