@@ -91,6 +91,9 @@ from .bodies.materials.layers import Layer as Layer
 from .bodies.materials.layers import Layered as Layered
 from .bodies.materials.material import Material as Material
 from .bodies.materials.measured_range import MeasuredRange as MeasuredRange
+from .bodies.series_fits import fit_creep as fit_creep
+from .bodies.series_fits import fit_dynamic as fit_dynamic
+from .bodies.series_fits import fit_relaxation as fit_relaxation
 from .bodies.surfaces import Surface as Surface
 from .bodies.surfaces import read_surface as read_surface
 from .case import shipped_material as shipped_material
@@ -100,12 +103,9 @@ from .identification import Isotherm as Isotherm
 from .identification import build_master_curve as build_master_curve
 from .identification import find_contact as find_contact
 from .identification import fit_adhesion as fit_adhesion
-from .identification import fit_creep as fit_creep
-from .identification import fit_dynamic as fit_dynamic
 from .identification import fit_each as fit_each
 from .identification import fit_indentation as fit_indentation
 from .identification import fit_master_curve as fit_master_curve
-from .identification import fit_relaxation as fit_relaxation
 from .identification import read_force_curve as read_force_curve
 from .identification import read_force_map as read_force_map
 from .mechanics.state import ContactState as ContactState

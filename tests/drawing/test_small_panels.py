@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.bodies.series_fits import fit_creep
 from viscontact.drawing.content import series_fit, small_panels
 from viscontact.drawing.content.panel import FIRST, Ink
 from viscontact.drawing.content.small_panels import law_panels
-from viscontact.identification import fit_creep
 
 
 @pytest.mark.parametrize(("ratio", "scale"), [(8.0, "linear"), (12.0, "log")])

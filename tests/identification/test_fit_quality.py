@@ -10,6 +10,7 @@ import pytest
 from closeness import close_to
 from returned import some
 from viscontact.backend.errors import AccuracyWarning
+from viscontact.bodies.series_fits import Fit, fit_dynamic, fit_relaxation
 from viscontact.bodies.series_fits.columns import positive_column
 from viscontact.bodies.series_fits.conventions import bulk_arguments
 from viscontact.bodies.series_fits.quality import Reason
@@ -17,7 +18,7 @@ from viscontact.bodies.series_fits.responses import DynamicResponse
 from viscontact.bodies.series_fits.spectrum import unweighted
 from viscontact.bodies.series_fits.weights import given_weights, weighted
 from viscontact.case import read_material
-from viscontact.identification import Fit, fit_dynamic, fit_relaxation, material_section
+from viscontact.identification import material_section
 from viscontact.laws import RelaxationSeries
 
 OMEGA = np.geomspace(1e-4, 1e4, 49)

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from scipy.special import gamma
 
 from closeness import close_to
+from viscontact.bodies.series_fits import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.case import read_material
-from viscontact.identification import fit_creep, fit_dynamic, fit_relaxation, material_section
+from viscontact.identification import material_section
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 T = np.geomspace(1e-2, 1e3, 60)

@@ -22,6 +22,13 @@ from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, STOPPED, CommandError
 from viscontact.runs.processes.request import RESUMABLE
 
+#: Packages of which a run loads what its case needs.
+_OF_ANY_CASE = (
+    *("bodies.indenters", "bodies.laws", "bodies.loads"),
+    *("mechanics.halfspace", "mechanics.problem", "mechanics.time_integration"),
+    *("simulation.accuracy", "simulation.meshing", "simulation.transient"),
+)
+
 
 def run_of_parent() -> int:
     """Wait for the arguments of a run, compute it, and return its exit code."""
@@ -44,12 +51,13 @@ def _import_run() -> None:
     limit_libraries()
     if has_memory():
         with suppress(Exception):
-            for name in ("run.execution", "shell", "sweep.execution", "sweep.single_task"):
+            for name in ("commands.running", "run.execution", "shell", "sweep.execution"):
                 import_module(f"viscontact.cli.{name}")
-            for name in ("indenters", "laws", "loads"):  # of any kind that a case may name
-                kinds = import_module(f"viscontact.bodies.{name}")
-                for kind in kinds.__all__:
-                    getattr(kinds, kind)
+            import_module("viscontact.cli.sweep.single_task")
+            for name in _OF_ANY_CASE:
+                package = import_module(f"viscontact.{name}")
+                for each in package.__all__:
+                    getattr(package, each)
 
 
 def _code_for_parent(end: CommandError) -> int:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from plotly.graph_objects import Figure
 
 from viscontact import __version__
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.svg.html import element
 from viscontact.report.html_page import html_page
 from viscontact.report.page_elements import remark

@@ -9,14 +9,13 @@ from closeness import close_to
 from identification.adhesive_curves import RADIUS, drawn
 from viscontact import reference
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits import fit_creep, fit_dynamic
 from viscontact.identification import (
     CurveFits,
     IndentationRecord,
     Isotherm,
     build_master_curve,
     fit_adhesion,
-    fit_creep,
-    fit_dynamic,
     fit_indentation,
     fit_master_curve,
 )

@@ -11,6 +11,7 @@ from pathlib import Path
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits import Fit
 from viscontact.bodies.series_fits.prony import fit_creep, fit_relaxation
 from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
 from viscontact.cli.material import fit_kinds
@@ -21,7 +22,6 @@ from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
-    Fit,
     ForceCurve,
     IndentationRecord,
     Isotherm,

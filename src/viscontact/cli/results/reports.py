@@ -52,7 +52,7 @@ def _report_package() -> Any:
     try:
         from viscontact import report as package
 
-        assert package.write_report  # what it needs is imported here, where it is named if missing
+        _ = package.write_report  # imports what it needs, which is named if it is missing
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "plotly"):
             raise

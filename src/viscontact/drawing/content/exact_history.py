@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact import reference
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter, Paraboloid, Sphere
@@ -17,15 +18,6 @@ from viscontact.bodies.loads import ApproachHistory, ForceHistory
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
-from viscontact.reference import (
-    AxisymmetricContact,
-    LeeRadokContact,
-    SphereProfile,
-    clustered_times,
-    lee_radok_ramp,
-    lee_radok_step,
-    press_axisymmetric,
-)
 from viscontact.results.recorded_case import is_layered, recorded_grid
 from viscontact.results.recorded_objects import recorded_clock, recorded_object
 from viscontact.results.run_axis import require_time
@@ -179,7 +171,7 @@ def _loaded(load: Any, instants: Floats) -> tuple[Floats, Floats]:
     """Times of a reference solution, some steps between those of a run, and the levels there."""
     corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
     corners = corners[corners <= instants[-1]]
-    placed = clustered_times(corners, _STEPS) if corners.size > 1 else corners
+    placed = reference.clustered_times(corners, _STEPS) if corners.size > 1 else corners
     times = np.unique(np.concatenate([placed, instants]))
     # A jump has two values, but for the one at the beginning, before which there is no contact.
     jumps = load.jumps[(load.jumps > 0) & (load.jumps <= instants[-1])]
@@ -191,15 +183,17 @@ def _loaded(load: Any, instants: Floats) -> tuple[Floats, Floats]:
 
 def _contact(
     radius: float, load: Any, compliance: Any, times: Floats, driven: Floats
-) -> AxisymmetricContact:
+) -> reference.AxisymmetricContact:
     """Reference solution under the load at times of the clock."""
-    profile = SphereProfile(radius)
+    profile = reference.SphereProfile(radius)
     if isinstance(load, ApproachHistory):
-        return press_axisymmetric(profile, times, approach=driven, creep_compliance=compliance)
-    return press_axisymmetric(profile, times, force=driven, creep_compliance=compliance)
+        return reference.press_axisymmetric(
+            profile, times, approach=driven, creep_compliance=compliance
+        )
+    return reference.press_axisymmetric(profile, times, force=driven, creep_compliance=compliance)
 
 
-def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
+def _of_growing(contact: reference.LeeRadokContact, instants: Floats) -> ExactHistory:
     radius = np.asarray(contact.contact_radius(instants))
     places = radius[:, None] * _places()
     pressure = np.asarray(contact.pressure(places, instants[:, None]))
@@ -212,7 +206,9 @@ def _of_growing(contact: LeeRadokContact, instants: Floats) -> ExactHistory:
     )
 
 
-def _of_marched(contact: AxisymmetricContact, last: Integers, solution: str) -> ExactHistory:
+def _of_marched(
+    contact: reference.AxisymmetricContact, last: Integers, solution: str
+) -> ExactHistory:
     """History at the last times of a solution before those of a run, by their numbers."""
     instants = contact.times[last]
     radius = contact.contact_radius[last]
@@ -231,7 +227,7 @@ def _places() -> Floats:
     return places
 
 
-def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
+def exact_sphere(results: xr.Dataset, figure: str) -> reference.LeeRadokContact | None:
     """Lee-Radok solution for a sphere or paraboloid under a step or held ramp; None otherwise."""
     indenter, load, material, other = (
         recorded_object(results, part, figure)
@@ -260,13 +256,17 @@ def sphere_radius(indenter: Indenter) -> float | None:
     return None
 
 
-def _growing_contact(load: ForceHistory, radius: float, compliance: Any) -> LeeRadokContact | None:
+def _growing_contact(
+    load: ForceHistory, radius: float, compliance: Any
+) -> reference.LeeRadokContact | None:
     times, force = load.times, load.force
     if times[0] != 0 or force[-1] <= 0:
         return None
     if (force == force[-1]).all():
-        return lee_radok_step(float(force[-1]), radius, compliance, compliance.relaxation)
+        return reference.lee_radok_step(float(force[-1]), radius, compliance, compliance.relaxation)
     if force[0] == 0 and times[1] > 0 and (force[1:] == force[-1]).all():
         duration = float(times[1])
-        return lee_radok_ramp(float(force[-1]), duration, radius, compliance, compliance.relaxation)
+        return reference.lee_radok_ramp(
+            float(force[-1]), duration, radius, compliance, compliance.relaxation
+        )
     return None

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscontact import identification
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import (
     FAINT,
@@ -18,9 +20,10 @@ from viscontact.drawing.content.panel import (
     Panel,
     Units,
 )
-from viscontact.identification import AdhesionFit, ContactPoint, IndentationFit
-from viscontact.identification.contact_point import deflection_in_contact
 from viscontact.units.formatting import readable_unit
+
+if TYPE_CHECKING:
+    from viscontact.identification import AdhesionFit, ContactPoint, IndentationFit
 
 #: Colour of what was fitted.
 FITTED = Ink("fit")
@@ -150,7 +153,7 @@ def contact_panel(contact: ContactPoint, units: Units = readable_unit) -> Panel:
     every = slice(None, None, -(-curve.position.size // _MOST))
     along = np.linspace(curve.position.min(), curve.position.max(), _SAMPLES)
     baseline = contact.offset + contact.slope * along
-    elastic = baseline + deflection_in_contact(
+    elastic = baseline + identification.deflection_in_contact(
         contact.indenter, contact.contact_modulus, curve.spring_constant, along - contact.position
     )
     return Panel(

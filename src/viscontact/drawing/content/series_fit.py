@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,9 +22,12 @@ from viscontact.drawing.content.panel import (
     Panel,
     spans_decades,
 )
-from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.temperatures import in_celsius
+
+if TYPE_CHECKING:
+    from viscontact.bodies.series_fits import Fit
+    from viscontact.identification import MasterCurve, ShiftFit
 
 #: Curves among many.
 _fine = partial(Curve, is_fine=True)

@@ -10,8 +10,9 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
+from viscontact.bodies.series_fits import Fit
 from viscontact.drawing.content.panel import SECOND, Axis, Curve, Ink, Panel, spans_decades
-from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.identification import IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.units.formatting import ReadableUnit
 
 #: Number of points of a curve.

@@ -14,6 +14,7 @@ from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.cards import Card as MaterialCard
 from viscontact.bodies.materials.layers import Layered, creeping_laws
 from viscontact.bodies.materials.material import Material
+from viscontact.bodies.series_fits import Fit
 from viscontact.bodies.surfaces import Surface
 from viscontact.drawing.content.load_course import whole_load_panel
 from viscontact.drawing.content.small_panels import law_panels
@@ -31,7 +32,7 @@ from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.drawing.svg.surface_map import surface_overview
-from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.identification import IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.descriptions import describe

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.series_fits import Fit
 from viscontact.drawing.content.panel import Panel
 from viscontact.drawing.content.small_panels import (
     fit_panels,
@@ -17,7 +18,7 @@ from viscontact.drawing.content.small_panels import (
 )
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.panel_drawing import panel_drawing
-from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.identification import IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity

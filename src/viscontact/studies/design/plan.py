@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.case import Case
 from viscontact.case.aliases import value_at
 from viscontact.case.overrides import key_path

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,8 +17,10 @@ from viscontact.backend.arrays import Floats
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.log_ticks import plain_log_ticks
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
-from viscontact.identification.curve_batch import CurveFits
 from viscontact.units.formatting import format_quantity, readable_unit
+
+if TYPE_CHECKING:
+    from viscontact.identification.curve_batch import CurveFits
 
 #: Ratio of the values beyond which their axis is logarithmic.
 _WIDE = 10.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -19,7 +21,10 @@ from viscontact.drawing.content.series_fit import fit_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
-from viscontact.identification import AdhesionFit, Fit, IndentationFit
+
+if TYPE_CHECKING:
+    from viscontact.bodies.series_fits import Fit
+    from viscontact.identification import AdhesionFit, IndentationFit
 
 #: Most records beside each other.
 _MOST_ACROSS = 3
@@ -45,7 +50,7 @@ def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     Examples
     --------
     >>> import numpy as np
-    >>> from viscontact.identification import fit_relaxation
+    >>> from viscontact.bodies.series_fits import fit_relaxation
     >>> t = np.geomspace(0.1, 100.0, 20)
     >>> figure = fitted_series(fit_relaxation(t, 1e9 + 2e9 * np.exp(-t / 5.0), data="shear"))
     >>> [axes.get_ylabel() for axes in figure.axes]

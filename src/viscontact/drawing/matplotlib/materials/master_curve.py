@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -12,8 +13,11 @@ from viscontact.drawing.content.series_fit import master_panels
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.drawing.matplotlib.layout.panels import draw_panel, named_keys
-from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.units.temperatures import in_celsius
+
+if TYPE_CHECKING:
+    from viscontact.bodies.series_fits import Fit
+    from viscontact.identification import MasterCurve, ShiftFit
 
 
 def master_curve(
