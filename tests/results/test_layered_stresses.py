@@ -112,7 +112,7 @@ def test_layers_that_creep_differently_need_the_pressure_of_all_instants() -> No
     inside = vc.section_stresses(ds, [30e-6, 60e-6])
     assert 0 < inside.attrs["splitting_error"] < 1e-3
     history = stress_history(body)
-    parts = history.pressures(np.array(times), ds.pressure.values, np.zeros(0))
+    parts = history.loads(np.array(times), ds.pressure.values, np.zeros(0))
     for row in (0, 4):
         wanted = sum(
             stress_on_section(part[row], GRID, [30e-6, 60e-6], LayeredStress(stack)).components

@@ -16,6 +16,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.layered_shear_stress import LayeredShearStress
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stack_waves import interface_depths
 from viscontact.mechanics.halfspace.stress import Stress, stress_on_plane, stress_on_section
@@ -58,7 +59,7 @@ class StressSource:
     results: xr.Dataset
     responses: tuple[StressResponse, ...]  # the stresses are the sum of theirs
     stack: ElasticStack | None = None  # layers of a body, one of the stacks of `history`
-    history: StressHistory | None = None  # weights of the pressure of each response
+    history: StressHistory | None = None  # weights of the load of each response
     clock: Clock = TIME  # of the creep of the body
     signs: tuple[float, ...] = (1.0,)  # of the fields `LOADS` that act on the responses
 
@@ -174,16 +175,19 @@ class StressSource:
 
     @cached_property
     def _of_history(self) -> Floats:
-        """Pressures of the responses at all stored instants."""
+        """Loads of the responses at all stored instants."""
         assert self.history is not None  # used for creeping layers only
         load = recorded_object(self.results, "load", "stresses")
         jumps = np.zeros(0) if load is None else load.jumps
-        pressure = np.asarray(self.results["pressure"].values, dtype=np.float64)
         # Both at once, so that a jump at a stored instant is at it on the clock, too.
         marks = np.unique(np.concatenate([self.stored, jumps]))
         reduced = self.clock.reduced(marks)
         instants, falls = (reduced[np.searchsorted(marks, each)] for each in (self.stored, jumps))
-        return self.history.pressures(instants, pressure, falls)
+        loads = [
+            sign * np.asarray(self.results[name].values, dtype=np.float64)
+            for name, sign in zip(LOADS, self.signs, strict=False)
+        ]
+        return np.concatenate([self.history.loads(instants, each, falls) for each in loads])
 
 
 def stress_source(
@@ -191,7 +195,8 @@ def stress_source(
 ) -> StressSource:
     """Source of the stresses in a body, of a given Poisson's ratio if it is a half-space.
 
-    ValueError if there is no such body, no stored pressure, or the pressure does not suffice.
+    ValueError if there is no such body, no stored pressure, or the pressure does not suffice, or if
+    the tractions are over several creepages.
     """
     if body not in ("material", "indenter_material"):
         raise ValueError(f"body must be 'material' or 'indenter_material', got {body!r}")
@@ -200,6 +205,13 @@ def stress_source(
             "stresses need stored pressure; run again with fields stored ('output: fields: all' "
             "or a list of instants in the case file, fields= in Python)"
         )
+    if results.sizes.get("creepage", 1) > 1:
+        raise ValueError(
+            "stresses: the tractions are over several creepages; choose one, as in "
+            "results.isel(creepage=-1)"
+        )
+    if "creepage" in results.dims:
+        results = results.isel(creepage=0)
     if has_ends(results, body):
         raise ValueError(
             "stresses: this body ends along x, and stresses near an end are not available; for "
@@ -207,30 +219,47 @@ def stress_source(
         )
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio
-        under_pressure = HalfSpaceStress(ratio)
-        if not all(name in results for name in LOADS):
-            return StressSource(results, (under_pressure,))
-        # What one body exerts on the other acts on itself in the opposite direction.
-        sign = 1.0 if body == "material" else -1.0
-        sheared = [HalfSpaceShearStress(ratio, axis) for axis in (0, 1)]
-        return StressSource(results, (under_pressure, *sheared), signs=(1.0, sign, sign))
+        signs = _signs(results, body)
+        sheared = [HalfSpaceShearStress(ratio, axis) for axis in range(len(signs) - 1)]
+        return StressSource(results, (HalfSpaceStress(ratio), *sheared), signs=signs)
     if poisson_ratio is not None:
         raise ValueError("poisson_ratio is for half-spaces; layers have their own, leave it out")
-    if "tangential_force_x" in results:
-        raise ValueError(
-            "stresses: those inside layers under friction are not available, as tractions along "
-            "the surface have a part in them; run the same case without friction for those of the "
-            "pressure alone"
-        )
     layered = recorded_object(results, body, "stresses")
     assert isinstance(layered, Layered)
-    stack = as_elastic(layered)
+    stack, signs = as_elastic(layered), _signs(results, body)
     if stack is not None:
-        return StressSource(results, (LayeredStress(stack),), stack)
+        return StressSource(results, _of_stacks([stack], signs), stack, signs=signs)
     clock, span = recorded_clock(results, body, "stresses"), ANY_TIMES
     if "time" in results.dims:
         span = span_of(clock.reduced(results["time"].values))
-    history = stress_history(layered, span)
-    return StressSource(
-        results, tuple(map(LayeredStress, history.stacks)), history.stacks[0], history, clock
-    )
+    history = stress_history(layered, span, sheared=len(signs) > 1)
+    responses = _of_stacks(history.stacks, signs)
+    return StressSource(results, responses, history.stacks[0], history, clock, signs)
+
+
+def at_largest_traction(results: xr.Dataset) -> xr.Dataset:
+    """Results at the creepage of the largest force along the surface; others unchanged."""
+    if "creepage" not in results.dims:
+        return results
+    forces = [results[f"tangential_force_{axis}"].values for axis in "xy"]
+    largest = np.hypot(*forces).max(axis=0)  # over the speeds
+    return results.isel(creepage=int(largest.argmax()))
+
+
+def _signs(results: xr.Dataset, body: Body) -> tuple[float, ...]:
+    """Signs of the fields `LOADS` that a result has."""
+    if not all(name in results for name in LOADS):
+        return (1.0,)
+    # What one body exerts on the other acts on itself in the opposite direction.
+    sign = 1.0 if body == "material" else -1.0
+    return 1.0, sign, sign
+
+
+def _of_stacks(
+    stacks: Sequence[ElasticStack], signs: tuple[float, ...]
+) -> tuple[StressResponse, ...]:
+    """Responses of stacks to each of the loads."""
+    found: list[StressResponse] = [LayeredStress(stack) for stack in stacks]
+    for axis in range(len(signs) - 1):
+        found += [LayeredShearStress(stack, axis) for stack in stacks]
+    return tuple(found)

@@ -244,3 +244,11 @@ def test_a_strip_without_end_is_in_plane_strain():
     for place, nu in enumerate((0.25, 0.25, 0.45, 0.3)):
         along = nu * (stress["yy"][place] + stress["zz"][place])
         assert stress["xx"][place] == close_to(along, abs=1e-9)
+
+
+def test_a_thin_layer_under_a_strip_of_any_length_has_finite_stresses():
+    stack = ElasticStack((ElasticLayer(1.0, 1.0, 0.3),), None)
+    edges = np.array([1e15, -1e15]), np.array([2.0, -2.0])
+    found = LayeredStress(stack).coefficients(*edges, 0.5)[:, 0, 0]
+    strip = LayeredStress(stack).coefficients(np.array([1e4, -1e4]), edges[1], 0.5)[:, 0, 0]
+    np.testing.assert_allclose(found, strip, atol=1e-9)

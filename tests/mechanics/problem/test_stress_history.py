@@ -9,8 +9,9 @@ import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
+from viscontact.mechanics.halfspace.layered_shear_stress import LayeredShearStress
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
-from viscontact.mechanics.halfspace.stack_waves import stack_waves
+from viscontact.mechanics.halfspace.stack_waves import antiplane_waves, stack_waves
 from viscontact.mechanics.halfspace.stress import stress_on_plane
 from viscontact.mechanics.problem.series_body import ANY_TIMES, span_of
 from viscontact.mechanics.problem.stress_history import stress_history
@@ -83,7 +84,7 @@ def ours(body, depth, instants, pressures, span=ANY_TIMES):
     """Amplitudes X, Y, S, T at the last instant of a history of PRESSURE times factors."""
     history = stress_history(body, span)
     fields = np.multiply.outer(np.asarray(pressures), PRESSURE)
-    parts = history.pressures(np.asarray(instants), fields, np.zeros(0))[:, -1]
+    parts = history.loads(np.asarray(instants), fields, np.zeros(0))[:, -1]
     stress = sum(
         stress_on_plane(field, GRID, depth, LayeredStress(stack)).components
         for field, stack in zip(parts, history.stacks, strict=True)
@@ -102,6 +103,49 @@ def test_stresses_after_a_step_follow_the_inverted_transform(case):
         instants = ([0.0, 0.3], [0.0, 0.1, 1.5], [0.0, 6.0])
         found = np.array([ours(body, depth, each, np.ones(len(each))) for each in instants])
         assert found == close_to(wanted, abs=error * max(1.0, np.abs(wanted).max()))
+
+
+def sheared_inverted(stack_at, depth, time):
+    """X, Y, S, T of sheared waves, Z and V at a time after a step of traction (Talbot)."""
+
+    def transform(part):
+        def of(s):
+            stack = stack_at(complex(s))
+            own = stack_waves(stack, np.array([WAVE]), sheared=True).stresses(depth)
+            turned, sideways = antiplane_waves(stack, np.array([WAVE])).stresses(depth)
+            found = (own.along, own.across, own.normal, own.shear, turned, sideways)[part][0]
+            return mpmath.mpmathify(complex(found)) / s
+
+        return of
+
+    with mpmath.workdps(15):
+        return [
+            float(mpmath.invertlaplace(transform(part), time, method="talbot", degree=14))
+            for part in range(6)
+        ]
+
+
+@pytest.mark.parametrize("case", [cover(5e6), coating(), bulky()])
+def test_stresses_after_a_step_of_traction_follow_the_inverted_transform(case):
+    body, stack_at = case
+    history = stress_history(body, sheared=True)
+    assert history.error < 1e-3
+    crest, slope = np.cos(WAVE * GRID.x) / 8, np.sin(WAVE * GRID.x) / 8
+    for depth in (0.4, 1.0, 1.3):
+        for time in (0.3, 6.0):
+            exact = sheared_inverted(stack_at, depth, time)
+            # Along the wave, which lies along x; then across it.
+            for axis, wanted in ((0, exact[:4]), (1, exact[4:])):
+                fields = np.multiply.outer(np.ones(2), PRESSURE)
+                parts = history.loads(np.array([0.0, time]), fields, np.zeros(0))[:, -1]
+                xx, yy, zz, yz, xz, xy = sum(
+                    stress_on_plane(field, GRID, depth, LayeredShearStress(stack, axis)).components
+                    for field, stack in zip(parts, history.stacks, strict=True)
+                )[:, :, 0]
+                # i exp(i k x) is -sin(k x) of a traction of cos(k x).
+                along = [-xx @ slope, -yy @ slope, -zz @ slope, xz @ crest]
+                found = along if axis == 0 else [-xy @ slope, yz @ crest]
+                assert found == close_to(wanted, abs=history.error * max(1.0, *np.abs(wanted)))
 
 
 def test_stresses_change_over_time_under_a_pressure_that_does_not():
@@ -127,9 +171,9 @@ def test_a_load_that_jumps_later_jumps_then():
     history = stress_history(body)
     instants, factors = np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.0, 1.0])
     fields = np.multiply.outer(factors, PRESSURE)
-    jumped = history.pressures(instants, fields, np.array([2.0]))[:, -1]
+    jumped = history.loads(instants, fields, np.array([2.0]))[:, -1]
     fields = np.multiply.outer(np.array([1.0, 1.0]), PRESSURE)
-    stepped = history.pressures(np.array([0.0, 1.0]), fields, np.zeros(0))[:, -1]
+    stepped = history.loads(np.array([0.0, 1.0]), fields, np.zeros(0))[:, -1]
     assert jumped == close_to(stepped, rel=1e-9)
 
 

@@ -158,24 +158,6 @@ def test_layers_that_repeat_along_one_axis_only_are_refused():
         )
 
 
-def test_stresses_inside_layers_under_friction_are_refused():
-    body = vc.Layered([vc.Layer(1e-3, RUBBER)], "rigid")
-    grid = vc.Grid((12, 12), (2e-3, 2e-3))
-    ds = vc.simulate(
-        vc.Sphere(0.01),
-        body,
-        vc.step(0.01),
-        grid,
-        [0.0],
-        friction=0.3,
-        tangential=vc.tangential_step(force_x=0.001),
-        errors=False,
-    )
-    for stresses in (vc.section_stresses, vc.interface_stresses):
-        with pytest.raises(ValueError, match="stresses: those inside layers under friction"):
-            stresses(ds)
-
-
 @pytest.mark.parametrize(
     ("tangential", "said"),
     [

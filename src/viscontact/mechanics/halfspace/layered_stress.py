@@ -47,6 +47,7 @@ from viscontact.mechanics.halfspace.stack_waves import (
     StackWaves,
     WaveStresses,
     layer_at,
+    poisson_ratio_at,
     stack_waves,
 )
 from viscontact.mechanics.halfspace.stress_influence import stress_coefficients
@@ -61,8 +62,9 @@ SHORTEST_WAVE = 45.0
 #: Decimal digits to which Gauss's rule integrates.
 DIGITS = 12.0
 
-#: Amplitude, and value of a Hankel function, that is nothing.
-TINY = 1e-100
+#: Amplitude, and value of a Hankel function, that is nothing, and the imaginary part of the
+#: argument from which on the function is.
+TINY, FADED = 1e-100, 240.0
 
 #: Places of the transforms in a table.
 ALONG, ACROSS, NORMAL, SHEAR = range(4)
@@ -81,11 +83,7 @@ class LayeredStress(PressureStress):
 
     def poisson_ratio_at(self, depth: float) -> float:
         """Poisson's ratio of the layer, or of the base."""
-        place = layer_at(self.stack, depth)
-        if place < len(self.stack.layers):
-            return self.stack.layers[place].poisson_ratio
-        assert self.stack.base is not None  # depths in a rigid one are refused
-        return self.stack.base.poisson_ratio
+        return poisson_ratio_at(self.stack, depth)
 
     def waves(self, wave_number: Floats) -> Callable[[float], WaveStresses]:
         """Stresses of waves over the depth."""
@@ -100,7 +98,7 @@ class LayeredStress(PressureStress):
 
     def coefficients(self, x_edges: Floats, y_edges: Floats, depth: float) -> Floats:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
-        x, y = (_sampled(np.asarray(edges) / self._length) for edges in (x_edges, y_edges))
+        x, y = (sampled_edges(np.asarray(edges) / self._length) for edges in (x_edges, y_edges))
         table = self._table(depth, float(np.hypot(np.abs(x.edges).max(), np.abs(y.edges).max())))
         corners = _corner_terms(table, x.edges, y.edges)
         sampled = np.diff(np.diff(corners, axis=1)[:, x.cells], axis=2)[:, :, y.cells]
@@ -117,7 +115,7 @@ class LayeredStress(PressureStress):
     def _table(self, depth: float, reach: float) -> _Table:
         """Table of the transforms for distances up to `reach` in units of the length."""
         count = int(np.ceil(np.arcsinh(reach) / STEP)) + MIRRORED
-        q, hankel = _hankel(count)
+        q, hankel = hankel_rule(count)
         if count not in self._rays:
             self._rays[count] = stack_waves(self.stack, q / self._length)
         found = self._rays[count].stresses(depth)
@@ -139,18 +137,24 @@ class _Table:
 
 
 @lru_cache(maxsize=4)
-def _hankel(count: int) -> tuple[Numbers, tuple[Numbers, Numbers]]:
+def hankel_rule(count: int) -> tuple[Numbers, tuple[Numbers, Numbers]]:
     """Wave numbers on the ray, and H0 and H1 with the weights of its integral; (r, q)."""
     r = np.sinh(STEP * np.arange(0.5, count))
     log_longest = np.log(LONGEST_WAVE / r[-1])
     steps = int(np.ceil((np.log(SHORTEST_WAVE) - log_longest) / LOG_STEP))
     q = np.exp(1j * ANGLE + log_longest + LOG_STEP * np.arange(steps + 1))
     argument, weights = np.multiply.outer(r, q), q * (LOG_STEP / (2 * np.pi))
-    h0, h1 = (_without_tiny(scipy.special.hankel1(order, argument) * weights) for order in (0, 1))
+    # Decayed to nothing where SciPy finds no number, as in thin layers on long lines.
+    decayed = argument.imag > FADED
+    near = np.where(decayed, 1.0, argument)
+    h0, h1 = (
+        np.where(decayed, 0.0, without_tiny(scipy.special.hankel1(order, near) * weights))
+        for order in (0, 1)
+    )
     return q, (h0, h1)
 
 
-def _without_tiny(values: Numbers) -> Numbers:
+def without_tiny(values: Numbers) -> Numbers:
     """Values with zeros in place of those that would make products slow by underflow."""
     return np.where(np.abs(values) < TINY, 0.0, values)
 
@@ -160,13 +164,18 @@ def _gauss(count: int) -> tuple[Floats, Floats]:
     return np.polynomial.legendre.leggauss(count)
 
 
+def hankel_at_zero(amplitudes: Numbers, r: Floats) -> Floats:
+    """What going round the pole of H1 at q = 0 adds to transforms over distances, (r, f)."""
+    return np.asarray(amplitudes[:, 0].real * (ANGLE / np.pi**2) / r[:, None])
+
+
 def _hankel_table(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any, Any]) -> _Table:
-    amplitudes = _without_tiny(amplitudes)
+    amplitudes = without_tiny(amplitudes)
     t = STEP * np.arange(0.5, count)  # none at r = 0, where H1 is singular
     r = np.sinh(t)
     # A tenth of the time of a product of matrices.
     lengthwise = np.einsum("rq,fq->rf", hankel[1], amplitudes[:SHEAR]).real
-    lengthwise += amplitudes[:SHEAR, 0].real * (ANGLE / np.pi**2) / r[:, None]
+    lengthwise += hankel_at_zero(amplitudes[:SHEAR], r)
     shear = np.einsum("rq,q->r", hankel[0], amplitudes[SHEAR]).real
     values = np.concatenate([lengthwise / r[:, None], shear[:, None]], axis=1)
     # Over dr = cosh(t) dt: A is odd, so is this integrand.
@@ -178,7 +187,7 @@ def _hankel_table(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any
     return _Table(transforms, rate.antiderivative())
 
 
-def _sampled(edges: Floats) -> SampledCells:
+def sampled_edges(edges: Floats) -> SampledCells:
     """Cells that stand for a row, as the correction is analytic to a distance of one length."""
     widths = np.diff(edges)
     is_even = np.allclose(widths, widths[0], rtol=1e-6, atol=0.0)
@@ -190,8 +199,12 @@ def _corner_terms(table: _Table, x: Floats, y: Floats) -> Floats:
     (x_sizes, x_places), (y_sizes, y_places) = (
         np.unique(np.abs(each), return_inverse=True) for each in (x, y)
     )
-    along_y = _legs(table, x_sizes, y_sizes)
-    along_x = _legs(table, y_sizes, x_sizes).swapaxes(1, 2)
+
+    def transforms(near: Floats, r: Floats) -> Floats:
+        return np.asarray(table.transforms(np.arcsinh(r)))
+
+    along_y = integrals_along(transforms, x_sizes, y_sizes)
+    along_x = integrals_along(transforms, y_sizes, x_sizes).swapaxes(1, 2)
     near_x, near_y = x_sizes[:, None], y_sizes[None, :]
     xx, yy, zz = (
         near_x * along_y[one] + near_y * along_x[other]
@@ -206,13 +219,18 @@ def _corner_terms(table: _Table, x: Floats, y: Floats) -> Floats:
     return np.asarray(found[:, x_places[:, None], y_places[None, :]] * signs)
 
 
-def _legs(table: _Table, near: Floats, along: Floats) -> Floats:
-    """Integrals over y' from 0 to ascending y (`along`) at x (`near`); (transforms, x, y)."""
+def integrals_along(
+    integrand: Callable[[Floats, Floats], Floats], near: Floats, along: Floats
+) -> Floats:
+    """Integrals over y' from 0 to ascending y (`along`) at x (`near`); (functions, x, y).
+
+    The integrand takes x and r, and returns its functions along a last axis.
+    """
     scale = np.hypot(near, 1.0)
     ends = np.arcsinh(along[None, :] / scale[:, None])
     starts = np.concatenate([np.zeros((near.size, 1)), ends[:, :-1]], axis=1)
     middle, half = (ends + starts) / 2, (ends - starts) / 2
-    pieces = np.empty((4, *ends.shape))
+    pieces: list[Floats] = [np.empty(0)] * along.size
     counts = _nodes(half.max(axis=0))
     for count in np.unique(counts):
         nodes, weights = _gauss(int(count))
@@ -220,9 +238,11 @@ def _legs(table: _Table, near: Floats, along: Floats) -> Floats:
         t = middle[:, own, None] + half[:, own, None] * nodes
         r = np.hypot(near[:, None, None], scale[:, None, None] * np.sinh(t))
         weighted = half[:, own, None] * weights * scale[:, None, None] * np.cosh(t)
-        values = table.transforms(np.arcsinh(r))
-        pieces[:, :, own] = np.einsum("xykf,xyk->fxy", values, weighted)
-    return np.asarray(np.cumsum(pieces, axis=2))
+        values = integrand(near[:, None, None], r)
+        found = np.einsum("xykf,xyk->yfx", values, weighted)
+        for place, piece in zip(own.tolist(), found, strict=True):
+            pieces[place] = piece
+    return np.cumsum(np.stack(pieces, axis=2), axis=2)
 
 
 def _nodes(half: Floats) -> Integers:

@@ -1,4 +1,4 @@
-"""Stresses inside a stack of elastic layers under a wave of pressure on its surface.
+"""Stresses inside a stack of elastic layers under a wave of pressure or traction on its surface.
 
 Under the pressure cos(q x) on a surface without shear traction the stresses at a depth are
 
@@ -9,6 +9,9 @@ plane strain, Y = ν (X + S). From the base up, what the parts below a level all
 of vectors y; at the surface the vector of the given tractions follows. From there down, each layer
 multiplies the weights of its two vectors by e^(-q h) and by the inverse of the triangular matrix by
 which they were made orthonormal on the way up: nothing grows with depth, and nothing cancels.
+
+Under a traction along the wave vector, S = 0 and T = -1 at the surface, the stresses have the same
+form a quarter of a wave ahead. A traction across it causes antiplane strain (`AntiplaneWaves`).
 """
 
 from __future__ import annotations
@@ -83,6 +86,65 @@ class StackWaves:
         return WaveStresses(stretch, nu * (stretch + normal), normal, shear)
 
 
+@dataclass(frozen=True, eq=False)
+class AntiplaneWaves:
+    """Waves of antiplane strain in all parts of a stack under a traction across the wave vector.
+
+    With the traction -1 at the surface, Z is the shear modulus times q times the displacement, the
+    shear stress along the wave, and V that on planes parallel to the surface:
+
+        dZ/dz = q V,   dV/dz = q Z
+
+    within a part. -Z/V at the upper side of each is that of `antiplane_compliance`.
+    """
+
+    q: Numbers  # wave numbers [1/m], shape (n,)
+    tops: tuple[float, ...]  # depths of the upper sides of the parts [m]
+    thicknesses: tuple[float, ...]  # inf of the base [m]
+    lower: tuple[Numbers, ...]  # -Z/V at the lower side of each part [-]
+    upper: tuple[Numbers, ...]  # V at the upper side of each part [-]
+
+    def stresses(self, depth: float) -> tuple[Numbers, Numbers]:
+        """Z and V at a depth [m]; at an interface those of the part above."""
+        place = _layer_index(list(self.tops), depth)
+        below = self.q * (depth - self.tops[place])
+        if np.isinf(self.thicknesses[place]):
+            faded = np.exp(-below) * self.upper[place]
+            return -faded, faded
+        height = self.q * self.thicknesses[place] - below
+        ratio, whole = self.lower[place], np.exp(-2 * self.q * self.thicknesses[place])
+        part = np.exp(-2 * height)
+        level = self.upper[place] * np.exp(-below) / (1 + whole + ratio * (1 - whole))
+        return -level * (ratio * (1 + part) + 1 - part), level * (1 + part + ratio * (1 - part))
+
+
+def antiplane_waves(stack: ElasticStack, q: Numbers) -> AntiplaneWaves:
+    """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex; of bonded layers."""
+    lower: list[Numbers] = []
+    found, modulus = np.zeros_like(q), 1.0
+    if stack.base is not None:
+        found, modulus = np.ones_like(q), stack.base.shear_modulus
+    for layer in reversed(stack.layers):
+        # Displacement and traction are those of the part beneath.
+        found = found * (layer.shear_modulus / modulus)
+        lower.insert(0, found)
+        whole = np.exp(-2 * q * layer.thickness)
+        found = (found * (1 + whole) + 1 - whole) / (1 + whole + found * (1 - whole))
+        modulus = layer.shear_modulus
+    thicknesses = [layer.thickness for layer in stack.layers]
+    upper = [-np.ones_like(q)]
+    for thickness, ratio in zip(thicknesses, lower, strict=True):
+        whole = np.exp(-2 * q * thickness)
+        passed = 2 * np.exp(-q * thickness) / (1 + whole + ratio * (1 - whole))
+        upper.append(upper[-1] * passed)
+    if stack.base is not None:
+        thicknesses, lower = [*thicknesses, np.inf], [*lower, np.ones_like(q)]
+    else:
+        upper.pop()
+    tops = (0.0, *interface_depths(stack))[: len(thicknesses)]
+    return AntiplaneWaves(q, tops, tuple(thicknesses), tuple(lower), tuple(upper))
+
+
 def layer_at(stack: ElasticStack, depth: float) -> int:
     """Index of the layer at or above a depth [m]; the base is the last, if it is not rigid."""
     tops = interface_depths(stack)
@@ -94,18 +156,31 @@ def layer_at(stack: ElasticStack, depth: float) -> int:
     return _layer_index([0.0, *tops], depth)
 
 
+def poisson_ratio_at(stack: ElasticStack, depth: float) -> float:
+    """Poisson's ratio of the layer at a depth [m], or of the base; ValueError in a rigid one."""
+    place = layer_at(stack, depth)
+    if place < len(stack.layers):
+        return stack.layers[place].poisson_ratio
+    assert stack.base is not None  # depths in a rigid one are refused
+    return stack.base.poisson_ratio
+
+
 def interface_depths(stack: ElasticStack) -> list[float]:
     """Depths of the lower sides of all layers [m]."""
     return [float(each) for each in np.cumsum([layer.thickness for layer in stack.layers])]
 
 
-def stack_waves(stack: ElasticStack, q: Numbers) -> StackWaves:
-    """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex."""
+def stack_waves(stack: ElasticStack, q: Numbers, *, sheared: bool = False) -> StackWaves:
+    """Waves of wave numbers q [1/m], shape (n,), not zero, real or complex.
+
+    Under a pressure, or under a traction along the wave vector if `sheared`.
+    """
     planes = _planes(stack, q)
     # Down, from the vector of the surface whose tractions are given.
     tops, found = [0.0, *interface_depths(stack)], []
-    normal: Numbers = -np.ones_like(q)
-    weights = _without_shear(planes[0].upper, normal)
+    load: Numbers = -np.ones_like(q)
+    given = (load, 0 * load) if sheared else (0 * load, load)
+    weights = _with_tractions(planes[0].upper, *given)
     for index, (layer, plane) in enumerate(zip(stack.layers, planes, strict=False)):
         own = _solve(plane.triangle, weights)
         lower = (plane.lower @ own)[:, :, 0]
@@ -114,7 +189,8 @@ def stack_waves(stack: ElasticStack, q: Numbers) -> StackWaves:
         if layer.bonded:
             weights = own
         elif index + 1 < len(planes):
-            weights = _without_shear(planes[index + 1].upper, own[:, 1, 0])
+            normal = own[:, 1, 0]
+            weights = _with_tractions(planes[index + 1].upper, 0 * normal, normal)
     if stack.base is not None:
         lower = (planes[-1].upper @ weights)[:, :, 0]
         found.append(_LayerWaves(lower, tops[-1], np.inf, stack.base.poisson_ratio))
@@ -152,9 +228,9 @@ def _planes(stack: ElasticStack, q: Numbers) -> list[_Plane]:
     return found[::-1]
 
 
-def _without_shear(vectors: Numbers, normal: Numbers) -> Numbers:
-    """Weights of vectors, (n, 2, 1), for a normal traction and no shear traction."""
-    return _solve(vectors[:, 2:], np.stack([np.zeros_like(normal), normal], axis=-1)[..., None])
+def _with_tractions(vectors: Numbers, shear: Numbers, normal: Numbers) -> Numbers:
+    """Weights of vectors, (n, 2, 1), for a shear and a normal traction."""
+    return _solve(vectors[:, 2:], np.stack([shear, normal], axis=-1)[..., None])
 
 
 def _solve(matrices: Numbers, right: Numbers) -> Numbers:

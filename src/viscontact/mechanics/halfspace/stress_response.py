@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.shear_stress_influence import shear_stress_coefficients
 from viscontact.mechanics.halfspace.stack_waves import WaveStresses
@@ -121,26 +121,10 @@ class HalfSpaceShearStress(StressResponse):
         traction is a uniform shear stress.
         """
         q = np.hypot(kx, ky)
-        q[0, 0] = 1.0  # the mean has no direction: its east and north are 0
-        east, north = (kx / q, ky / q) if self.axis == 0 else (ky / q, kx / q)
-        nu = self.poisson_ratio
-
-        def at(depth: float) -> list[Floats]:
-            qz = q * depth
-            decay, bent = np.exp(-qz), 2 * nu + qz
-            found = [
-                (2 + 2 * nu - bent * east**2) * east,
-                (2 * nu - bent * north**2) * east,
-                qz * east,
-                qz * east * north,
-                qz * east**2 - 1,
-                (1 - bent * east**2) * north,
-            ]
-            found = [np.asarray(each * decay) for each in found]
-            found[4][0, 0] = -1.0
-            return found if self.axis == 0 else [found[place] for place in EXCHANGED]
-
-        return at
+        q[0, 0] = 1.0  # the mean has no direction
+        return sheared_tensors(
+            kx, ky, self.axis, lambda depth: half_space_amplitudes(self.poisson_ratio, q * depth)
+        )
 
     def poisson_ratio_at(self, depth: float) -> float:
         """Poisson's ratio of the half-space."""
@@ -150,3 +134,38 @@ class HalfSpaceShearStress(StressResponse):
     def exchanged(self) -> HalfSpaceShearStress:
         """Under a traction along the other axis."""
         return HalfSpaceShearStress(self.poisson_ratio, 1 - self.axis)
+
+
+def half_space_amplitudes(poisson_ratio: float, qz: Numbers) -> Numbers:
+    """X, Y, S, T, V and Z of `layered_shear_stress` in a half-space, at q z; shape (6, ...)."""
+    one = np.ones_like(qz)
+    found = [2 - qz, 2 * poisson_ratio * one, qz, qz - 1, -one, one]
+    return np.stack(found) * np.exp(-qz)
+
+
+def sheared_tensors(
+    kx: Floats, ky: Floats, axis: int, amplitudes: Callable[[float], Numbers]
+) -> WaveTensors:
+    """Stresses of waves of traction along an axis by X, Y, S, T, V and Z at a depth.
+
+    The mean traction is a uniform shear stress.
+    """
+    q = np.hypot(kx, ky)
+    q[0, 0] = 1.0  # the mean has no direction: its east and north are 0
+    east, north = (kx / q, ky / q) if axis == 0 else (ky / q, kx / q)
+
+    def at(depth: float) -> list[Floats]:
+        along, across, normal, shear, sideways, turned = amplitudes(depth)
+        bent, carried = along - across - 2 * turned, shear - sideways
+        found = [
+            (across + 2 * turned + bent * east**2) * east,
+            (across + bent * north**2) * east,
+            normal * east,
+            carried * east * north,
+            sideways + carried * east**2,
+            (turned + bent * east**2) * north,
+        ]
+        found[4][0, 0] = -1.0
+        return found if axis == 0 else [found[place] for place in EXCHANGED]
+
+    return at

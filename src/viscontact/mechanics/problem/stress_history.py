@@ -16,13 +16,15 @@ these stacks under the pressures
 (without the integral for m = 0). At the beginning and at the end of all creep the sum is exact.
 Where one term is enough, the stresses are those of the present pressure. The error is the largest
 one of the harmonic response over wave numbers and frequencies, over the largest stress under a wave
-at the same depth; twice that is stated.
+at the same depth; twice that is stated. Tractions have the stresses of sheared waves, of the same
+poles, and their history the same weights.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -33,7 +35,11 @@ from viscontact.bodies.laws import SeriesLaw
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.halfspace.elastic_stack import ElasticBase, ElasticLayer, ElasticStack
-from viscontact.mechanics.halfspace.stack_waves import interface_depths, stack_waves
+from viscontact.mechanics.halfspace.stack_waves import (
+    antiplane_waves,
+    interface_depths,
+    stack_waves,
+)
 from viscontact.mechanics.problem.series_body import ANY_TIMES, Span, series_body
 
 #: Error of the sum at which no times are added, numbers of times that are tried, and the largest
@@ -60,16 +66,19 @@ class StressHistory:
     weights: Numbers  # B^-1, transposed, shape (stacks, 1 + m) [-]
     error: float  # bound, over the largest stress under any wave at the same depth [-]
 
-    def pressures(self, instants: Numbers, pressure: Numbers, jumps: Numbers) -> Numbers:
-        """Pressures of the stacks [Pa], (stacks, instants, ...), by that at the instants [s]."""
-        # The pressure is linear between the instants, and jumps to its first value at the first
-        # one. At a jump of the load it jumps to its next value.
-        found = np.empty((len(self.stacks), *pressure.shape))
-        faded = np.repeat(pressure[None, 0], self.times.size, axis=0)
-        times = self.times.reshape(-1, *[1] * (pressure.ndim - 1))
-        for k, now in enumerate(pressure):
+    def loads(self, instants: Numbers, load: Numbers, jumps: Numbers) -> Numbers:
+        """Loads of the stacks [Pa], (stacks, instants, ...), by that at the instants [s].
+
+        A pressure, or a traction along an axis.
+        """
+        # The load is linear between the instants, and jumps to its first value at the first one.
+        # At a jump it jumps to its next value.
+        found = np.empty((len(self.stacks), *load.shape))
+        faded = np.repeat(load[None, 0], self.times.size, axis=0)
+        times = self.times.reshape(-1, *[1] * (load.ndim - 1))
+        for k, now in enumerate(load):
             if k:
-                step, change = instants[k] - instants[k - 1], now - pressure[k - 1]
+                step, change = instants[k] - instants[k - 1], now - load[k - 1]
                 ratio = step / times
                 within = jumps[(jumps > instants[k - 1]) & (jumps <= instants[k])]
                 kept = -np.expm1(-ratio) / ratio
@@ -82,8 +91,13 @@ class StressHistory:
 
 
 @lru_cache(maxsize=16)
-def stress_history(body: Layered, span: Span = ANY_TIMES) -> StressHistory:
-    """Separate the stresses of layers, for times of interest within a span [s]."""
+def stress_history(
+    body: Layered, span: Span = ANY_TIMES, *, sheared: bool = False
+) -> StressHistory:
+    """Separate the stresses of layers, for times of interest within a span [s].
+
+    Those under tractions as well if `sheared`.
+    """
     body, deviation = series_body(body, span)
     slow, fast, fluid = _rates(body)
     far = BEYOND_FLUID if fluid else BEYOND
@@ -91,16 +105,16 @@ def stress_history(body: Layered, span: Span = ANY_TIMES) -> StressHistory:
         slow /= BEYOND_FLUID
     omega = np.geomspace(slow / MARGIN, fast * MARGIN, FREQUENCIES)
     q, depths = _samples(body)
-    full = np.array([_amplitudes(_stack_at(body, 1j * each), q, depths) for each in omega])
-    best = _collocated(
-        body, np.empty(0), np.array([np.sqrt(slow * fast)]), (q, depths, omega, full)
-    )
+    amplitudes = partial(_amplitudes, q=q, depths=depths, sheared=sheared)
+    full = np.array([amplitudes(_stack_at(body, 1j * each)) for each in omega])
+    harmonic = amplitudes, omega, full
+    best = _collocated(body, np.empty(0), np.array([np.sqrt(slow * fast)]), harmonic)
     for count in COUNTS:
         if best.error <= SAFETY * ENOUGH:
             break
         rates = np.geomspace(slow, fast, count)
         s = np.array([slow / far, *np.sqrt(rates[:-1] * rates[1:]), fast * far])
-        tried = _collocated(body, 1 / rates, s, (q, depths, omega, full))
+        tried = _collocated(body, 1 / rates, s, harmonic)
         if np.abs(tried.weights).max() > LARGEST_WEIGHT:
             break
         best = min(best, tried, key=lambda each: each.error)
@@ -111,12 +125,15 @@ def _collocated(
     body: Layered,
     times: Numbers,
     s: Numbers,
-    harmonic: tuple[Numbers, list[float], Numbers, Numbers],
+    harmonic: tuple[Callable[[ElasticStack], Numbers], Numbers, Numbers],
 ) -> StressHistory:
-    """Sum with given times, exact at real s, and its error in the harmonic response."""
-    q, depths, omega, full = harmonic
+    """Sum with given times, exact at real s, and its error in the harmonic response.
+
+    `harmonic`: the amplitudes of a stack, frequencies, and the amplitudes at these.
+    """
+    amplitudes, omega, full = harmonic
     stacks = tuple(_stack_at(body, float(each)) for each in s)
-    at_s = np.array([_amplitudes(stack, q, depths) for stack in stacks])
+    at_s = np.array([amplitudes(stack) for stack in stacks])
     weights = np.linalg.inv(_functions(times, s))
     kernels = np.tensordot(weights, at_s, axes=1)
     missing = np.abs(np.tensordot(_functions(times, 1j * omega), kernels, axes=1) - full)
@@ -143,11 +160,18 @@ def _samples(body: Layered) -> tuple[Numbers, list[float]]:
     return q, depths
 
 
-def _amplitudes(stack: ElasticStack, q: Numbers, depths: list[float]) -> Numbers:
-    """X, Y, S and T of a stack, shape (depths, 4, q)."""
-    waves = stack_waves(stack, q)
-    found = [waves.stresses(depth) for depth in depths]
-    return np.array([[each.along, each.across, each.normal, each.shear] for each in found])
+def _amplitudes(stack: ElasticStack, q: Numbers, depths: list[float], *, sheared: bool) -> Numbers:
+    """X, Y, S and T of a stack, and those of sheared waves with Z and V, shape (depths, 4, q)."""
+    kinds = [stack_waves(stack, q)]
+    if sheared:
+        kinds.append(stack_waves(stack, q, sheared=True))
+    antiplane = antiplane_waves(stack, q) if sheared else None
+    found = []
+    for depth in depths:
+        at = [waves.stresses(depth) for waves in kinds]
+        own = [part for each in at for part in (each.along, each.across, each.normal, each.shear)]
+        found.append(own if antiplane is None else [*own, *antiplane.stresses(depth)])
+    return np.array(found)
 
 
 def _stack_at(body: Layered, s: Any) -> ElasticStack:

@@ -18,13 +18,14 @@ from viscontact.drawing.matplotlib.layout.contour_labels import label_contours
 from viscontact.drawing.matplotlib.layout.page import Width, page_width
 from viscontact.mechanics.halfspace.stress_lines import Progress
 from viscontact.results.snapshots import headings_of, take_snapshots
-from viscontact.results.stress_source import stress_source
+from viscontact.results.stress_source import StressSource, at_largest_traction, stress_source
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 _NAME = "stress-section"
 
 #: Height of a section that is as deep as wide, because the grid ends near the contact [inch].
 _HIGHEST = 2.2
+_FLAT = 2.2  # height of a figure [inch] below which its colour bar lies beneath
 #: Number of areas between levels, at most.
 _LEVELS = 9
 
@@ -56,8 +57,8 @@ def stress_section(
         Planes across the contact, along its shorter extent, through the largest pressure, with
         their position; a cross where the stress is largest, and lines at the interfaces of layers.
         They are two half widths of the contact deep, below small spots only as deep as the stress
-        is. Instants between which the contact grows by more than three times have axes of their
-        own.
+        is. Of several creepages that of the largest traction is shown. Instants between which the
+        contact grows by more than three times have axes of their own.
 
     Raises
     ------
@@ -75,7 +76,7 @@ def stress_section(
     ['Depth [mm]', 'Von Mises stress [kPa]']
     """
     snapshots = take_snapshots(results, times, _NAME, count=2)
-    source = stress_source(results)
+    source = stress_source(at_largest_traction(results))
     groups = grouped_sections(source, snapshots, progress)
     alike, sections = len(groups) == 1, [section for group in groups for section in group]
     length = readable_unit("m", *(section.depths[-1] for section in sections))
@@ -88,6 +89,8 @@ def stress_section(
         for section in sections
     ]
     height = 0.45 + sum(heights) + (0.42 if alike else 0.75) * len(sections)
+    is_flat = height < _FLAT  # too low for a colour bar at its side
+    height += 0.7 if is_flat else 0.0
     figure = style.new_figure(wide, height, fixed_aspect=True)
     panels = figure.subplots(
         *(len(sections), 1), sharex=alike, sharey=alike, squeeze=False, height_ratios=heights
@@ -101,16 +104,24 @@ def stress_section(
         note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
         # Below an infinite pressure the largest stress is infinite too.
         note = peak_note([results], [section.time]) or note
-        place = ", ".join(filter(None, (heading, section.place_in_words)))
+        place = ", ".join(filter(None, (heading, _creepage(source), section.place_in_words)))
         style.add_heading(axes, f"{place}\n{note}")
     for axes, section in list(zip(panels, sections, strict=True))[-1 if alike else 0 :]:
         axes.set_xlabel(length.label(section.axis))
-    bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
+    look = {"location": "bottom", "pad": 0.04} if is_flat else {"shrink": 0.9, "pad": 0.02}
+    bar = figure.colorbar(drawn, ax=panels.tolist(), aspect=25, **look)
     style.dress_colour_bar(bar, scale.label)
     figure.draw_without_rendering()  # The layout gives the room for labels.
     for axes, lines in zip(panels, contours, strict=True):
         label_contours(axes, lines, {level: f"{level:g}" for level in lines.levels})
     return figure
+
+
+def _creepage(source: StressSource) -> str:
+    """Creepage of tractions in steady motion, in words; empty without."""
+    if "creepage" not in source.results.coords:
+        return ""
+    return f"creepage {100 * float(source.results['creepage']):.3g} %"
 
 
 def _draw(
