@@ -7,6 +7,7 @@ import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 
@@ -67,11 +68,6 @@ else:
             "from viscontact.cli import main; main(['example'])", HEAVY, marks=pytest.mark.slow
         ),
         pytest.param(
-            f"from viscontact.cli import main; main(['check', {str(CASE)!r}])",
-            (*COMPUTES, "netCDF4"),
-            marks=pytest.mark.slow,
-        ),
-        pytest.param(
             "import viscontact as vc; vc.simulate",
             ("scipy.interpolate", "scipy.optimize", "pint", "rich"),
             marks=pytest.mark.slow,
@@ -91,17 +87,110 @@ def imported(code: str, unwanted: tuple[str, ...]) -> str:
 
 #: Imported after the last step of a run once: half of the time of a small one.
 OF_DATASETS = ("xarray", "pandas", "dask", "pint", "asyncio", "matplotlib")
+COMMAND = "from viscontact.cli import main; assert main({words!r}) == 0"
+#: What a sphere at rest on one half-space, on a given grid, does without.
+OF_OTHER_RUNS = tuple(
+    f"viscontact.{each}"
+    for each in (
+        "mechanics.contact.friction.equilibrium",
+        "mechanics.contact.adhesion.equilibrium",
+        "mechanics.contact.steady_equilibrium",
+        "mechanics.halfspace.strip_basis",
+        "simulation.meshing.mesh_choice",
+        "simulation.transient.event_search",
+        "tables.reader",
+        "case.error_messages",
+        "cli.commands.fitting",
+    )
+)
+#: Of a check also what a run needs after it.
+OF_RUNS = tuple(
+    f"viscontact.{each}"
+    for each in (
+        "simulation.transient.march",
+        "simulation.accuracy.error_bars",
+        "mechanics.time_integration.internal_variables",
+    )
+)
+#: Subpackages of SciPy that take longest; `stats` imports most others.
+OF_SCIPY = tuple(
+    f"scipy.{each}" for each in ("signal", "stats", "interpolate", "optimize", "ndimage")
+)
 
 
 def test_a_run_and_its_tables_import_no_library_of_datasets(tmp_path: Path) -> None:
     case, run = str(EXAMPLES / "sphere-zener.yaml"), str(tmp_path / "run")
     small = ["--set", "grid.shape=[32, 32]", "--set", "time.steps=4"]
     unwanted = (*OF_DATASETS, *(SLOW_PARTS if TRANSFORMS else ()), *TRANSFORMS, "scipy.linalg")
-    code = "from viscontact.cli import main; assert main({words!r}) == 0"
-    assert imported(code.format(words=["run", case, "-o", run, *small]), unwanted) == ""
+    run_it = COMMAND.format(words=["run", case, "-o", run, *small])
+    assert imported(run_it, (*unwanted, *OF_OTHER_RUNS)) == ""
     kinds = ("bodies.materials.material", "bodies.laws.law", "bodies.indenters.indenter")
     no_kinds = tuple(f"viscontact.{each}" for each in kinds)
-    assert imported(code.format(words=["show", run]), (*unwanted, *no_kinds)) == ""
+    assert imported(COMMAND.format(words=["show", run]), (*unwanted, *no_kinds)) == ""
+
+
+def test_a_check_imports_nothing_that_it_does_without() -> None:
+    check = COMMAND.format(words=["check", str(EXAMPLES / "sphere-zener.yaml")])
+    unwanted = (*OF_DATASETS, *COMPUTES, "netCDF4", "scipy.linalg", *OF_OTHER_RUNS, *OF_RUNS)
+    assert imported(check, unwanted) == ""
+
+
+@pytest.fixture(scope="module")
+def small_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    run = tmp_path_factory.mktemp("small") / "run"
+    small = ["--set", "grid.shape=[32, 32]", "--set", "time.steps=4", "-q"]
+    assert main(["run", str(EXAMPLES / "sphere-zener.yaml"), "-o", str(run), *small]) == 0
+    return run
+
+
+@pytest.mark.slow
+def test_a_drawn_history_imports_nothing_of_fits_and_exact_solutions(small_run: Path) -> None:
+    words = ["plot", str(small_run), "history", "-o", str(small_run / "history.png")]
+    own = ("reference.hertz", "identification.indentation", "identification.master_curve")
+    unwanted = (*OF_SCIPY, "plotly", *(f"viscontact.{each}" for each in own))
+    assert imported(COMMAND.format(words=words), unwanted) == ""
+
+
+@pytest.mark.slow
+def test_a_report_imports_nothing_of_studies_and_fits(small_run: Path) -> None:
+    own = ("report.fit_page", "report.design_page", "identification.fit_quality")
+    unwanted = ("scipy.signal", "scipy.stats", "typst", *(f"viscontact.{each}" for each in own))
+    assert imported(COMMAND.format(words=["report", str(small_run)]), unwanted) == ""
+
+
+#: Served from a process whose application, made after the first page, says what is imported.
+SERVED = """
+import os, sys
+from viscontact.web import server
+
+def told(*_):
+    sys.stderr.write(' '.join(set({unwanted}) & set(sys.modules)))
+    sys.stderr.flush()
+    os._exit(0)
+
+server._application = told
+from viscontact.cli import main
+main(["serve", "--no-open", "--port", "0", "--no-token", "--dir", {folder!r}])
+"""
+
+
+@pytest.mark.slow
+def test_the_first_page_of_the_server_is_shown_before_all_else_is_imported(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("uvicorn")
+    unwanted = ("fastapi", *HEAVY, *OF_DATASETS[:-2], "plotly", "viscontact.web.calculator")
+    unwanted = tuple(each for each in unwanted if each != "numpy")  # numbers with units
+    code = SERVED.format(unwanted=unwanted, folder=str(tmp_path))
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as served:
+        assert served.stdout
+        address, *_ = served.stdout.readline().split()
+        with urlopen(address) as page:
+            assert b"<title>" in page.read()
+        _, said = served.communicate(timeout=60)
+    assert said.rpartition("\n")[2] == ""
 
 
 def test_a_case_imports_the_kinds_that_it_names_only() -> None:

@@ -7,7 +7,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from viscontact import case
+from viscontact import case, tables
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
@@ -17,7 +17,6 @@ from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.results.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.tables import split_sheet
 from viscontact.units.display import Displayable, DisplayableGroup
 from viscontact.units.formatting import format_quantity
 
@@ -113,7 +112,7 @@ class Case(DisplayableGroup, Problem):
         named: Any = self.document.data
         for step in key:
             named = named[step]
-        sheet = split_sheet(Path(named))[1]
+        sheet = tables.split_sheet(Path(named))[1]
         return "" if sheet is None else f"#{sheet}"
 
     @property

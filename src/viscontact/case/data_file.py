@@ -8,9 +8,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
 
+from viscontact import tables
 from viscontact.case.plain_names import is_plain_name
 from viscontact.case.quantities import Section
-from viscontact.tables import with_typed_meanings
 
 
 def beside_the_case(name: str, info: ValidationInfo) -> str:
@@ -27,7 +27,7 @@ def beside_the_case(name: str, info: ValidationInfo) -> str:
 def at_key(why: str) -> str:
     """A message of the reader of tables, with the key of the section that it belongs to."""
     at = "" if why.startswith("columns: ") else "file: "
-    return f"{at}{with_typed_meanings(why, 'columns:')}"
+    return f"{at}{tables.with_typed_meanings(why, 'columns:')}"
 
 
 def is_same_file(one: Path, other: Path) -> bool:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from viscontact import tables
 from viscontact.bodies import loads
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, checked_creepages
@@ -26,7 +27,6 @@ from viscontact.case.quantities import (
     SpeedCount,
 )
 from viscontact.case.section_choice import ChosenBy
-from viscontact.tables import read_source, read_table
 
 #: Columns of a table of the path.
 _AXES = ("x", "y")
@@ -118,8 +118,8 @@ class Travel(MotionOverTime):
 
     def _from_file(self, path: Path) -> Motion:
         try:
-            heading = read_source(path, lambda cell: _axis(cell) is not None).found.rows[0]
-            table = read_table(path, {c: axis for c in heading.cells if (axis := _axis(c))})
+            heading = tables.read_source(path, lambda cell: _axis(cell) is not None).found.rows[0]
+            table = tables.read_table(path, {c: axis for c in heading.cells if (axis := _axis(c))})
         except ValueError as error:
             raise ValueError(f"file: {error}") from error
         others = [table.headings[column] for column in table.columns if column not in _COLUMNS]

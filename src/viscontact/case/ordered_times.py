@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from viscontact.tables import Table
+from viscontact import tables
 from viscontact.units.formatting import format_quantity
 
 
-def refuse_decrease(table: Table) -> None:
+def refuse_decrease(table: tables.Table) -> None:
     """Raise ValueError where the times of a table decrease, or begin before 0, with the line."""
     before = 0.0
     for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):

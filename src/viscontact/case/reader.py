@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from viscontact import case
+from viscontact import case, tables
 from viscontact.bodies import series_fits
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.case.case import Case
@@ -24,7 +24,6 @@ from viscontact.case.sections import CaseFile, lacks_time
 from viscontact.case.temperature_checks import temperature_problems
 from viscontact.case.time_grid_output import early_fields, kept_fields, kept_speeds, with_instants
 from viscontact.mechanics.problem.kept_fields import KeptFields
-from viscontact.tables import split_sheet
 
 # Largest number of problems that are reported.
 _MOST_PROBLEMS = 200
@@ -208,4 +207,4 @@ def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
         if material is not None:
             found_there = {(section, *key): path for key, path in material.files.items()}
             files |= {as_written(document.data, key): path for key, path in found_there.items()}
-    return {key: split_sheet(path)[0] for key, path in files.items()}
+    return {key: tables.split_sheet(path)[0] for key, path in files.items()}

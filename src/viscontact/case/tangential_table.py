@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from viscontact import tables
 from viscontact.bodies.loads.tangential import UNITS
 from viscontact.case.ordered_times import refuse_decrease
-from viscontact.tables import Table, read_table
 from viscontact.tables.heading_cells import heading_cell
 
 
 def read_tangential(path: Path, columns: str | None) -> dict[str, list[float]]:
     """Times and forces or motions of a table by name [SI]."""
-    table = read_table(path, columns)
+    table = tables.read_table(path, columns)
     if columns is None:
         # Names that are headings of tangential loads only.
         named = {each: heading_cell(each, 0).name.strip().lower() for each in table.left_out}
         meant: dict[str, str | None] = {
             heading: name for heading, name in named.items() if name in UNITS
         }
-        table = read_table(path, meant) if meant else table
+        table = tables.read_table(path, meant) if meant else table
     _require_columns(table)
     refuse_decrease(table)
     return {name: column.tolist() for name, column in table.columns.items()}
 
 
-def _require_columns(table: Table) -> None:
+def _require_columns(table: tables.Table) -> None:
     name, known = table.source.name, ("time", *UNITS)
     # An ignored column could be a load that is not applied.
     others = [table.headings[column] for column in table.columns if column not in known]

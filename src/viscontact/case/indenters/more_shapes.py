@@ -6,11 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from viscontact import tables
 from viscontact.bodies import indenters
 from viscontact.case.data_file import DataFile
 from viscontact.case.indenters.base import Shape
 from viscontact.case.quantities import Angle, Length, Offset, OpenAngle
-from viscontact.tables import read_line
 
 FaceCount = Annotated[int, Field(ge=3, le=1000)]
 Points = list[Annotated[tuple[Offset, Offset], Field(strict=False)]]
@@ -158,7 +158,7 @@ class _Drawn(Shape):
             points = self.points or []
             return [position for position, _ in points], [drop for _, drop in points]
         try:
-            return read_line(file, along)
+            return tables.read_line(file, along)
         except ValueError as error:
             raise ValueError(f"file: {error}") from error
 

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from viscontact import tables
 from viscontact.bodies import indenters
 from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import (
@@ -20,7 +21,6 @@ from viscontact.case.quantities import (
     OpenAngle,
 )
 from viscontact.case.section_choice import ChosenBy, alternatives
-from viscontact.tables import read_line
 
 Ratio = Annotated[float, Field(gt=0, le=1)]
 Factor = Annotated[float, Field(gt=0, le=1e6)]
@@ -185,7 +185,7 @@ class TabulatedLine(Line):
             points = self.points or []
             return [x for x, _ in points], [drop for _, drop in points]
         try:
-            return read_line(self.file, "x")
+            return tables.read_line(self.file, "x")
         except ValueError as error:
             raise ValueError(f"profile.file: {error}") from error
 

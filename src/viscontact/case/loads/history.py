@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from viscontact import tables
 from viscontact.bodies.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.bodies.loads.history import Control
 from viscontact.bodies.loads.history_points import TILTS
@@ -30,7 +31,6 @@ from viscontact.case.quantities import (
     Instant,
     Pressure,
 )
-from viscontact.tables import Table, read_table
 
 _COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
@@ -188,7 +188,7 @@ def _history(
 def _read_table(path: Path, names: str | None) -> dict[str, list[float]]:
     """Read a load history from a CSV file."""
     try:
-        table = read_table(path, names, wanted=("force", "approach"))
+        table = tables.read_table(path, names, wanted=("force", "approach"))
         _require_columns(table)
         refuse_decrease(table)
     except ValueError as error:
@@ -198,7 +198,7 @@ def _read_table(path: Path, names: str | None) -> dict[str, list[float]]:
     return values
 
 
-def _require_columns(table: Table) -> None:
+def _require_columns(table: tables.Table) -> None:
     name = table.source.name
     # An ignored column could be a load that is not applied.
     others = [table.headings[column] for column in table.columns if column not in _COLUMNS]

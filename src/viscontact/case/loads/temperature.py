@@ -12,6 +12,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, model_va
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact import tables
 from viscontact.bodies import loads
 from viscontact.bodies.loads import TemperatureHistory
 from viscontact.case.data_file import DataFile, at_key
@@ -32,7 +33,6 @@ from viscontact.case.quantities import (
     WithUnit,
 )
 from viscontact.case.section_choice import ChosenBy
-from viscontact.tables import Table, read_table
 
 _QUANTITY = WithUnit("temperature", POSITIVE)
 
@@ -141,10 +141,10 @@ class Course(TemperatureSection):
         return _history("points", *map(list, zip(*self.points, strict=True)))
 
     @cached_property
-    def _read(self) -> Table:
+    def _read(self) -> tables.Table:
         assert self.file is not None  # given
         try:
-            table = read_table(Path(self.file), self.columns, wanted=("temperature",))
+            table = tables.read_table(Path(self.file), self.columns, wanted=("temperature",))
             for name in _COLUMNS:
                 _ = table[name]
             refuse_decrease(table)

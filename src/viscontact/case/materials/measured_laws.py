@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from viscontact import tables
 from viscontact.bodies import laws, series_fits
 from viscontact.bodies.laws import Law
 from viscontact.bodies.materials import cards
@@ -20,7 +21,6 @@ from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_record import measured_record
 from viscontact.case.materials.oscillation import fit_note, fit_oscillation, fit_warning
 from viscontact.case.quantities import Modulus
-from viscontact.tables import Table, read_table, read_text
 from viscontact.units.parsing import parse_scale
 from viscontact.units.temperatures import in_celsius
 
@@ -97,7 +97,7 @@ class TableLaw(FromFile):
             raise ValueError(f"file: {self._error_in_file(table, error)}") from error
 
     @cached_property
-    def table(self) -> Table:
+    def table(self) -> tables.Table:
         """The table, or its chosen set, checked against the other keys."""
         try:
             table = self._chosen_columns(self._whole_table)
@@ -110,7 +110,7 @@ class TableLaw(FromFile):
     def _other_kind(self) -> str | None:
         """What a file that is no table is, if that is known."""
         try:
-            text = read_text(Path(self.file))
+            text = tables.read_text(Path(self.file))
         except ValueError:
             return None
         name = Path(self.file).name
@@ -120,9 +120,9 @@ class TableLaw(FromFile):
         return unread
 
     @property
-    def _whole_table(self) -> Table:
+    def _whole_table(self) -> tables.Table:
         wanted = (*_STATING, "modulus", "creep_modulus", "strain", "stress", "complex_modulus")
-        return read_table(self.file, self.columns, stress=self.stress, wanted=wanted)
+        return tables.read_table(self.file, self.columns, stress=self.stress, wanted=wanted)
 
     @property
     def _quantity(self) -> str:
@@ -206,7 +206,7 @@ class TableLaw(FromFile):
         assert isinstance(law, Law)
         return law
 
-    def _chosen_columns(self, table: Table) -> Table:
+    def _chosen_columns(self, table: tables.Table) -> tables.Table:
         sets = table.sets()
         if self.set is not None:
             found = [each for each in sets if each.set_number == self.set]
@@ -222,7 +222,7 @@ class TableLaw(FromFile):
             )
         return table
 
-    def _require_test(self, table: Table) -> None:
+    def _require_test(self, table: tables.Table) -> None:
         if table.data is not None and self.data not in (None, table.data):
             heading = next((table.headings[name] for name in _STATING if name in table), "")
             raise ValueError(
@@ -240,7 +240,7 @@ class TableLaw(FromFile):
                 "constants for the temperature of the table"
             )
 
-    def _error_in_file(self, table: Table, error: ValueError) -> str:
+    def _error_in_file(self, table: tables.Table, error: ValueError) -> str:
         """Return an error of a law at its place in the file, not at its argument."""
         match = _AT_ROW.match(str(error))
         if match is None or int(match["row"]) >= len(table):
@@ -253,7 +253,7 @@ class TableLaw(FromFile):
         return f"{table.source.name}:{table.lines[int(match['row'])]}: column {heading!r}: {why}"
 
 
-def _which(sets: tuple[Table, ...]) -> str:
+def _which(sets: tuple[tables.Table, ...]) -> str:
     """What tells a case which of several sets it has."""
     if all(each.set_number is None for each in sets):
         return (
@@ -263,7 +263,7 @@ def _which(sets: tuple[Table, ...]) -> str:
     return f"say which with set: {_set_list(sets)}"
 
 
-def _set_list(sets: tuple[Table, ...]) -> str:
+def _set_list(sets: tuple[tables.Table, ...]) -> str:
     return ", ".join(
         f"{each.set_number:g}"
         + ("" if each.temperature is None else f" ({in_celsius(each.temperature):.3g} °C)")

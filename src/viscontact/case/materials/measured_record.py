@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.tables import Table
+from viscontact import tables
 from viscontact.tables.names import QUANTITIES, meaning
 from viscontact.units.dimensions import DIMENSIONS
 
@@ -20,7 +20,7 @@ _KEPT = (
 )
 
 
-def measured_record(table: Table, data: str) -> dict[str, Any]:
+def measured_record(table: tables.Table, data: str) -> dict[str, Any]:
     """Return file, kind of test, number of rows, and columns in SI units."""
     # A creep modulus, which a table holds as its inverse, is a modulus again. The strain of a creep
     # test is the compliance, strain over stress.
@@ -29,7 +29,7 @@ def measured_record(table: Table, data: str) -> dict[str, Any]:
     return {"file": table.source.name, "data": data, "rows": len(table), "columns": columns}
 
 
-def _column(table: Table, quantity: str, rows: Any) -> dict[str, Any]:
+def _column(table: tables.Table, quantity: str, rows: Any) -> dict[str, Any]:
     heading, values = table.headings[quantity], table[quantity][rows]
     stated = meaning(re.split(r"[\[(,]", heading)[0].strip())
     if quantity == "creep_compliance" and stated and stated.quantity == "creep_modulus":

@@ -6,13 +6,13 @@ import warnings
 
 import numpy as np
 
+from viscontact import tables
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies import series_fits
-from viscontact.tables import Table
 
 
 def fit_oscillation(
-    table: Table, data: str, poisson_ratio: float | None, bulk_modulus: float | None
+    table: tables.Table, data: str, poisson_ratio: float | None, bulk_modulus: float | None
 ) -> series_fits.Fit:
     """Fit a series to a table of storage and loss modulus; its misfit is no Python warning here."""
     points, measured = series_fits.measured_columns(table)
@@ -27,7 +27,7 @@ def fit_oscillation(
         raise ValueError(f"file: {table.located(error)}") from error
 
 
-def fit_note(table: Table, fit: series_fits.Fit) -> str:
+def fit_note(table: tables.Table, fit: series_fits.Fit) -> str:
     """Origin of the law in words: terms, residuals and range of the fit."""
     rms = " and ".join(
         f"{100 * np.sqrt(np.mean(each**2)):.2g} % of {name}" for name, each in fit.residuals.items()
@@ -41,7 +41,7 @@ def fit_note(table: Table, fit: series_fits.Fit) -> str:
     )
 
 
-def fit_warning(table: Table, fit: series_fits.Fit) -> str | None:
+def fit_warning(table: tables.Table, fit: series_fits.Fit) -> str | None:
     """Warning of a fit that misses the table; None where it does not."""
     if fit.misfit is None:
         return None

@@ -9,11 +9,11 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from viscontact import tables
 from viscontact.bodies import laws
 from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import MolarEnergy, Temperature, TemperatureDifference
 from viscontact.case.section_choice import ChosenBy
-from viscontact.tables import read_table
 from viscontact.units.temperatures import in_celsius
 
 _ROUNDED = 1e-4  # deviation of a written factor from 1 at the temperature of the law
@@ -127,7 +127,7 @@ class Factors(Rule):
     def _from_file(self) -> laws.Shift:
         assert self.file is not None  # given
         try:
-            table = read_table(self.file, wanted=("shift_factor",))
+            table = tables.read_table(self.file, wanted=("shift_factor",))
             order = np.argsort(table["temperature"], kind="stable")
             temperatures, factors = table["temperature"][order], table["shift_factor"][order]
             return laws.TabulatedShift(temperatures.tolist(), factors.tolist())
