@@ -10,23 +10,19 @@ from pathlib import Path
 
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
-from viscontact.bodies.materials.material import Material
 from viscontact.bodies.series_fits import Fit
 from viscontact.bodies.series_fits.prony import fit_creep, fit_relaxation
 from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, measured_columns
 from viscontact.cli.material import fit_kinds
 from viscontact.cli.material.fit_kinds import Kind
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
-from viscontact.cli.material.shift_table import celsius, print_shifts
+from viscontact.cli.material.shift_table import print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
     ForceCurve,
     IndentationRecord,
-    Isotherm,
-    MasterCurve,
-    ShiftFit,
     adhesive_sections,
     build_master_curve,
     find_contact,
@@ -35,9 +31,10 @@ from viscontact.identification import (
     read_force_curve,
 )
 from viscontact.identification.instrument_curves import is_instrument_file
+from viscontact.identification.shift_rows import celsius, shift_rules
+from viscontact.identification.tabulated_sets import isotherms_of, usual_reference, with_volume
 from viscontact.tables import Table, read_table
 
-_ROOM = 293.15  # [K]
 # Quantities one of which a table has that can be fitted.
 _FITTED = (
     *("storage_modulus", "complex_modulus", "relaxation_modulus", "modulus"),
@@ -117,7 +114,7 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
     with _warnings_said(table.located):
         fit = fit_measured(points, measured, weights=arguments.weights, **options)
     put(table.located(repr(fit)))
-    fit = _with_volume(_with_lines(fit, table), arguments)
+    fit = with_volume(_with_lines(fit, table), *arguments.volume())
     return material_section(fit), DeferredFigure("fitted_series", fit)
 
 
@@ -133,7 +130,7 @@ def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[st
         else:
             fit = fit_relaxation(points, measured["modulus"], **options, **on_clock)
     put(table.located(repr(fit)))
-    fit = _with_volume(_with_lines(fit, table), arguments)
+    fit = with_volume(_with_lines(fit, table), *arguments.volume())
     assert fit.found_shift is not None
     drawing = DeferredFigure("fitted_series", fit)
     if arguments.temperature is None:
@@ -152,20 +149,19 @@ def _from_sets(
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
     _refuse_idle(fit_kinds.several_sets(measured_columns(table)[1]), table, arguments)
     options = arguments.options(table)
-    isotherms = [_isotherm(one) for one in sets]
-    temperatures = [isotherm.temperature for isotherm in isotherms]
+    isotherms = isotherms_of(sets)
     reference = (
-        min(temperatures, key=lambda kelvin: abs(kelvin - _ROOM))
+        usual_reference(isotherms)
         if arguments.reference is None
         else read_kelvin("--reference", arguments.reference)
     )
     with _warnings_said():
         curve = build_master_curve(isotherms, reference, **arguments.superposition())
-    rules = _rules(curve)
+    rules = shift_rules(curve)
     print_shifts(curve, rules)
     with _warnings_said():
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
-    fit = _with_volume(fit, arguments)
+    fit = with_volume(fit, *arguments.volume())
     put(f"\nAt {celsius(reference)}:\n{fit!r}")
     drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
@@ -250,38 +246,6 @@ def _with_lines(fit: Fit, table: Table) -> Fit:
         return fit
     misfit = dataclasses.replace(fit.misfit, message=table.located(fit.misfit.message))
     return dataclasses.replace(fit, misfit=misfit)
-
-
-def _with_volume(fit: Fit, arguments: FitArguments) -> Fit:
-    """Return the fit with the given volume constants, which shear data do not determine."""
-    poisson_ratio, bulk_modulus = arguments.volume()
-    if fit.data == "uniaxial" or (poisson_ratio is None and bulk_modulus is None):
-        return fit
-    material = Material(fit.law, poisson_ratio, bulk_modulus=bulk_modulus)
-    return dataclasses.replace(
-        fit, poisson_ratio=material.poisson_ratio, bulk_modulus=material.bulk_modulus
-    )
-
-
-def _isotherm(one: Table) -> Isotherm:
-    if one.temperature is None:
-        raise ValueError(
-            f"{one.source.name}: several sets need a column of temperatures to be joined"
-        )
-    try:
-        return Isotherm(one.temperature, *measured_columns(one))
-    except ValueError as error:
-        raise ValueError(one.located(error)) from None
-
-
-def _rules(curve: MasterCurve) -> list[ShiftFit]:
-    rules = []
-    for fitted in (curve.fit_wlf, curve.fit_arrhenius):
-        try:
-            rules.append(fitted())
-        except ValueError:  # too few different temperatures
-            continue
-    return rules
 
 
 def write_section(path: Path, text: str) -> None:

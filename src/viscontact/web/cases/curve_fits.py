@@ -11,7 +11,6 @@ from typing import Any
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
-from viscontact.case.plain_names import is_plain_name
 from viscontact.drawing.content.look import Look
 from viscontact.drawing.plotly.indentation_fits import (
     contact_point,
@@ -30,11 +29,12 @@ from viscontact.identification import (
     read_force_curve,
 )
 from viscontact.identification.force_curve import tabulated_curve
-from viscontact.identification.instrument_curves import is_instrument_file, split_number
-from viscontact.tables import Table, read_table, split_sheet
+from viscontact.identification.instrument_curves import is_instrument_file
+from viscontact.tables import Table, read_table
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity
 from viscontact.web.cases.case_reader import CaseReader, form_values
+from viscontact.web.cases.fit_fields import quantities_of, uploaded_file
 from viscontact.web.workspace.problems import InputProblem, RequestError, without_folder
 
 #: Tips by their names, with the dimension of their size.
@@ -103,14 +103,11 @@ def _quantities(request: CurveFitRequest) -> dict[str, float | None]:
         **{"spring_constant": "stiffness", "sensitivity": "sensitivity"},
         **{"poisson_ratio": "", "bulk_modulus": "pressure"},
     }
-    found: dict[str, float | None] = {}
     problems = []
-    for name, dimension in dimensions.items():
-        text = str(getattr(request, name)).strip()
-        try:
-            found[name] = _read_quantity(text, dimension) if text else None
-        except ValueError as error:
-            problems.append(InputProblem(str(error), name))
+    try:
+        found = quantities_of(request, dimensions)
+    except RequestError as error:
+        problems += [InputProblem(**each) for each in error.body["problems"]]
     if not request.poisson_ratio.strip() and not request.bulk_modulus.strip():
         problems.append(
             InputProblem("give Poisson's ratio, such as 0.5, or a bulk modulus", "poisson_ratio")
@@ -124,20 +121,11 @@ def _quantities(request: CurveFitRequest) -> dict[str, float | None]:
     return found
 
 
-def _read_quantity(text: str, dimension: str) -> float:
-    if dimension:
-        return parse_quantity(text, dimension)
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"{text!r} is not a number; write e.g. 0.5") from None
-
-
 def _record(
     request: CurveFitRequest, folder: Path, given: dict[str, float | None]
 ) -> tuple[IndentationRecord, ContactPoint | None]:
     """Record of indentation, and the contact point of a force curve."""
-    indenter, path = _tip(request), _path(request.file, folder)
+    indenter, path = _tip(request), uploaded_file(request.file, folder)
     stiffness = given["spring_constant"]
     if is_instrument_file(path):
         return _from_curve(read_force_curve(path, spring_constant=stiffness), indenter)
@@ -165,16 +153,6 @@ def _tip(request: CurveFitRequest) -> Indenter:
         return kind(parse_quantity(request.size, dimension))
     except ValueError as error:
         raise RequestError(422, InputProblem(str(error), "size")) from error
-
-
-def _path(name: str, folder: Path) -> Path:
-    """Path of an uploaded file, with the sheet or the number of a curve behind it."""
-    if not is_plain_name(name.partition("#")[0]) or "/" in name or "\\" in name:
-        raise RequestError(422, InputProblem("upload the file, and give its name alone", "file"))
-    path = folder / name
-    if not split_number(split_sheet(path)[0])[0].is_file():
-        raise RequestError(422, InputProblem(f"there is no file {name!r}; upload it", "file"))
-    return path
 
 
 def _contact_rows(contact: ContactPoint) -> list[tuple[str, str]]:

@@ -23,15 +23,16 @@ class FileContents:
     """What a file holds in words, and the section of a case that names it."""
 
     holds: str
-    path: tuple[str, ...] = ()  # of the section; none for a force curve, which the fit takes
+    path: tuple[str, ...] = ()  # of the section; none for what the fit takes
     section: dict[str, Any] | None = None
+    fit: str = ""  # kind of the fit that takes it: "curve" or "material"
 
 
 def contents_of_upload(cases: CaseReader, name: str) -> dict[str, Any]:
     """Return what a file of the folder holds; RequestError if that is not known."""
     path = cases.folder.stored_file(name)
     if is_instrument_file(path):
-        return asdict(FileContents("a force curve"))
+        return asdict(FileContents("a force curve", fit="curve"))
     with suppress(ValueError, OSError):
         if found := _of_table(read_table(path), name):
             return asdict(found)
@@ -54,10 +55,12 @@ def contents_of_upload(cases: CaseReader, name: str) -> dict[str, Any]:
 def _of_table(table: Table, name: str) -> FileContents | None:
     """Contents of a table with headings; None for one of heights."""
     if any(each in table for each in _OF_CURVES) or ("force" in table and "approach" in table):
-        return FileContents("a force curve")
+        return FileContents("a force curve", fit="curve")
     if any(each in table for each in _OF_MATERIALS):
+        if not table.has_varying_temperature and (count := len(table.sets())) > 1:
+            return FileContents(f"{count} tests of a material", fit="material")
         section = {"law": "table", "file": name}
-        return FileContents("a test of a material", ("material",), section)
+        return FileContents("a test of a material", ("material",), section, fit="material")
     if "time" in table and ("force" in table or "approach" in table):
         section = {"kind": "history", "file": name}
         return FileContents("a load over time", ("load",), section)

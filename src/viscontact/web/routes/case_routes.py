@@ -29,6 +29,7 @@ from viscontact.web.cases.case_reader import CaseReader, filled, form_values
 from viscontact.web.cases.curve_fits import CurveFitRequest, fit_of_upload
 from viscontact.web.cases.drawings import drawn_as_svg
 from viscontact.web.cases.file_contents import contents_of_upload
+from viscontact.web.cases.material_fits import MaterialFitRequest, fitted_tests
 from viscontact.web.runs.run_figures import look_of
 from viscontact.web.workspace.naming import suggested_title
 from viscontact.web.workspace.pictures import PictureChoice
@@ -189,6 +190,16 @@ async def fit(
     look = look_of(units, dark=dark)
     found = await calculator.about_case(request, fit_of_upload, body, look)
     return Response(json.dumps(found, allow_nan=False), media_type="application/json")
+
+
+@router.post("/fit/material")
+async def fit_material(
+    body: MaterialFitRequest, calculator: AppCalculator, request: Request,
+    dark: bool = False, narrow: bool = False,
+) -> dict[str, Any]:  # fmt: skip
+    """Fit a law to uploaded tests of a material, at one temperature or at several."""
+    width: Width | None = "single" if narrow else None
+    return await calculator.about_case(request, fitted_tests, body, dark=dark, width=width)
 
 
 @router.get("/files")

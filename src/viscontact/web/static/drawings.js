@@ -114,3 +114,10 @@ function picture(svg, alt) {
 }
 
 const missing = (kind) => (caseValues()[kind] ? "The values cannot be drawn yet." : "No values yet.");
+
+// A drawing of the server with its caption.
+export function drawing({ caption, svg }) {
+  const src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const image = make("img", { alt: caption, src, onload: () => URL.revokeObjectURL(src) });
+  return make("figure", { class: "made" }, make("div", { class: "scroll" }, image), make("figcaption", { class: "faint", textContent: caption }));
+}

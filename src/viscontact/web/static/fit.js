@@ -1,35 +1,60 @@
-// Fit of a law to a force curve: its file, its instrument, and the figures made by the server.
+// Fit of a law to a measurement: a force curve with its instrument, or tests of a material. The figures
+// are made by the server.
 
 import { changed, setValue } from "./draft.js";
-import { definitions, make, place } from "./dom.js";
+import { definitions, items, make, place } from "./dom.js";
+import { drawing } from "./drawings.js";
 import { fileEntry } from "./fields.js";
 import { plotly } from "./figures.js";
 import { titleOf } from "./hints.js";
 import { draw } from "./linked.js";
-import { post, upload } from "./server.js";
+import { get, post, upload } from "./server.js";
 import { isDark, onTheme } from "./theme.js";
 import { chosenSystem } from "./units.js";
 
 const LAWS = ["elastic", "maxwell", "zener", "burgers", "creep-series", "power-law", "power-law-with-instant"];
 // Size of each tip: its name and an example.
 const TIPS = { sphere: ["Radius", "5 um"], cone: ["Half angle", "70 deg"], pyramid: ["Angle from axis to face", "35 deg"], punch: ["Radius", "2 um"] };
+const KINDS = { curve: "Force curve or indentation", material: "Tests of a material" };
+const FILES = {
+  curve: "JPK curve or map (map.jpk-force-map#12 is its curve 12), or a table with time, position and deflection or force, or with time, approach and force",
+  material: "creep, relaxation or oscillation (DMA), as a table; a column of temperatures makes sets, which are joined to a master curve",
+};
+// Of each field: label, example, description, and the kind of measurement that it belongs to.
 const FIELDS = {
-  file: ["File", "", "JPK curve or map (map.jpk-force-map#12 is its curve 12), or a table with time, position and deflection or force, or with time, approach and force"],
-  tip: ["Tip", "", ""],
-  size: ["Radius", "5 um", ""],
-  spring_constant: ["Spring constant", "0.1 N/m", "of the cantilever; files of instruments state their own"],
-  sensitivity: ["Sensitivity", "50 nm/V", "of a deflection in volts"],
-  law: ["Law", "", ""],
-  terms: ["Terms", "1", "of a creep series"],
+  kind: ["Measurement", "", ""],
+  file: ["File", "", FILES.curve],
+  tip: ["Tip", "", "", "curve"],
+  size: ["Radius", "5 um", "", "curve"],
+  spring_constant: ["Spring constant", "0.1 N/m", "of the cantilever; files of instruments state their own", "curve"],
+  sensitivity: ["Sensitivity", "50 nm/V", "of a deflection in volts", "curve"],
+  law: ["Law", "", "", "curve"],
+  data: ["Kind of test", "", "", "material"],
+  reference: ["Reference", "23 degC", "temperature of the master curve; that of the set nearest to 20 °C if empty", "material"],
+  shift: ["Shift", "", "in the law: the factors that are found, or a rule through them", "material"],
+  vertical: ["Vertical shift", "", "of the moduli", "material"],
+  terms: ["Terms", "1", "of a series; as many as the data need if empty"],
   poisson_ratio: ["Poisson's ratio", "0.5", ""],
   bulk_modulus: ["Bulk modulus", "4 GPa", "in place of Poisson's ratio"],
 };
+const CHOICES = {
+  kind: KINDS, tip: named(Object.keys(TIPS)), law: named(LAWS),
+  data: { "": "as the headings say", shear: "Shear (G, J)", uniaxial: "Uniaxial (E, D)", deviatoric: "Deviatoric (Φ)" },
+  shift: { factors: "Factors", wlf: "WLF", arrhenius: "Arrhenius" },
+  vertical: { "": "as the data need", none: "None", rubber: "Rubber, T/T_r", found: "Found" },
+};
+const ADDRESS = { curve: "/api/fit", material: "/api/fit/material" };
+// On narrow pages the panels of a drawing are placed below each other.
+const phone = window.matchMedia("(max-width: 640px)");
 let shown = null;
 
 export function setUpFit() {
   const form = place("fit-form");
   form.append(...Object.keys(FIELDS).map(field), make("div", { class: "buttons" },
     make("button", { type: "submit", class: "main", id: "fit-go", textContent: "Fit" })));
+  input("kind").addEventListener("change", () => showKind());
+  input("file").addEventListener("input", () => recognise());
+  showKind();
   const size = form.querySelector('label[for="fit-size"]');
   input("tip").addEventListener("change", () => {
     [size.textContent, input("size").placeholder] = TIPS[input("tip").value];
@@ -44,20 +69,37 @@ export function setUpFit() {
   place("units").addEventListener("change", () => shown && fit());
 }
 
-// Takes a file that is on the server.
-export function fitFile(name) {
+// Takes a file that is on the server, for a kind of fit.
+export function fitFile(name, kind) {
   place("fit").open = true;
   input("file").value = name;
+  if (kind) showKind(kind);
   place("fit").scrollIntoView({ behavior: "smooth" });
 }
 
 const input = (name) => place(`fit-${name}`);
+const isOf = (name, kind) => [undefined, kind].includes(FIELDS[name][3]);
+function named(values) { return Object.fromEntries(values.map((value) => [value, titleOf(value)])); }
+
+// Shows the fields of a kind of measurement.
+function showKind(kind = input("kind").value) {
+  input("kind").value = kind;
+  for (const name of Object.keys(FIELDS)) input(name).closest(".field").hidden = !isOf(name, kind);
+  input("file").closest(".field").querySelector(".description").textContent = FILES[kind];
+}
+
+// The kind of an uploaded file, by what it holds; none of a name that is being typed.
+async function recognise() {
+  const name = input("file").value.trim(), known = await get("/api/files").catch(() => []);
+  if (!known.some((each) => each.name === name)) return;
+  const { fit: kind } = await get(`/api/files/${encodeURIComponent(name)}/contents`).catch(() => ({}));
+  if (kind && input("file").value.trim() === name) showKind(kind);
+}
 
 function field(name) {
-  const [label, example, about] = FIELDS[name], id = `fit-${name}`;
-  const choices = { tip: Object.keys(TIPS), law: LAWS }[name];
+  const [label, example, about] = FIELDS[name], id = `fit-${name}`, choices = CHOICES[name];
   const control = choices
-    ? make("select", { id }, choices.map((value) => make("option", { value, textContent: titleOf(value), selected: value === "zener" })))
+    ? make("select", { id }, Object.entries(choices).map(([value, textContent]) => make("option", { value, textContent, selected: value === "zener" })))
     : make("input", { id, type: "text", spellcheck: false, placeholder: example && `e.g. ${example}`, "aria-describedby": `${id}-problems` });
   return make("div", { class: "field" }, make("label", { htmlFor: id, textContent: label }),
     make("div", { class: "control" }, name === "file" ? fileEntry([], control) : control),
@@ -70,6 +112,7 @@ async function take(file) {
   try {
     input("file").value = (await upload(file)).name;
     complain([]);
+    await recognise();
   } catch (error) {
     complain(error.problems ?? [{ message: String(error) }]);
   }
@@ -86,14 +129,15 @@ function complain(problems) {
 }
 
 async function fit() {
-  const asked = Object.fromEntries(Object.keys(FIELDS).map((name) => [name, input(name).value.trim()]));
-  asked.terms = Number(asked.terms) || 1;
-  const query = new URLSearchParams({ dark: isDark(), units: chosenSystem() });
+  const kind = input("kind").value, names = Object.keys(FIELDS).filter((name) => name !== "kind" && isOf(name, kind));
+  const asked = Object.fromEntries(names.map((name) => [name, input(name).value.trim()]));
+  if (kind === "curve") asked.terms = Number(asked.terms) || 1;
+  const query = new URLSearchParams({ dark: isDark(), ...(kind === "curve" ? { units: chosenSystem() } : { narrow: phone.matches }) });
   const button = place("fit-go");
   button.disabled = true;
   button.textContent = "Fitting…";
   try {
-    const [found] = await Promise.all([post(`/api/fit?${query}`, asked), plotly()]);
+    const [found] = await Promise.all([post(`${ADDRESS[kind]}?${query}`, asked), plotly()]);
     complain([]);
     show(found);
   } catch (error) {
@@ -111,11 +155,9 @@ function show(found) {
   shown = found;
   place("fit-result").hidden = false;
   place("fit-notes").replaceChildren(...found.warnings.map((text) => make("p", { class: "note warm", textContent: text })));
-  const head = ["Parameter", "Value", `${found.parameters[0].confidence} interval`];
-  place("fit-parameters").replaceChildren(make("table", {},
-    make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col", textContent: text })))),
-    make("tbody", {}, found.parameters.map(({ name, value, interval }) => make("tr", {},
-      make("th", { scope: "row", textContent: titleOf(name) }), make("td", { textContent: value }), make("td", { textContent: interval }))))));
+  const { confidence } = found.parameters[0], head = ["Parameter", "Value", ...(confidence ? [`${confidence} interval`] : [])];
+  place("fit-parameters").replaceChildren(table(head, found.parameters.map(({ name, value, interval }) => [titleOf(name), value, ...(confidence ? [interval] : [])])));
+  showShifts(found.shifts);
   place("fit-residual").textContent = `Residual: ${found.residual}`;
   place("fit-contact-facts").hidden = !found.contact.length;
   place("fit-facts").replaceChildren(...definitions(found.contact));
@@ -124,6 +166,22 @@ function show(found) {
     make("div", { class: "plot" })));
   place("fit-figures").replaceChildren(...boxes);
   found.figures.forEach((figure, index) => draw(boxes[index].querySelector(".plot"), figure));
+  place("fit-drawings").replaceChildren(...(found.drawings ?? []).map(drawing));
+}
+
+function table(head, rows) {
+  return make("table", {},
+    make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col", textContent: text })))),
+    make("tbody", {}, rows.map(([first, ...others]) => make("tr", {},
+      make("th", { scope: "row", textContent: first }), others.map((textContent) => make("td", { textContent }))))));
+}
+
+function showShifts(shifts) {
+  place("fit-shifts").hidden = !shifts;
+  if (!shifts) return;
+  place("fit-shifts-title").textContent = shifts.title;
+  place("fit-shift-table").replaceChildren(table(shifts.head, shifts.rows));
+  place("fit-shift-notes").replaceChildren(...items(shifts.notes));
 }
 
 function use() {

@@ -67,8 +67,8 @@ async function openFiles(files) {
   for (const each of others) names.push((await upload(each)).name);
   if (opened) { await load(await opened.text(), opened.name); return; }
   for (const name of names) {
-    const { holds, path, section } = await get(`/api/files/${encodeURIComponent(name)}/contents`);
-    if (!section) { fitFile(name); notify(`${name}: ${holds}, for the fit below.`); continue; }
+    const { holds, path, section, fit } = await get(`/api/files/${encodeURIComponent(name)}/contents`);
+    if (!section) { fitFile(name, fit); notify(`${name}: ${holds}, for the fit below.`); continue; }
     const back = caseText();
     // A material keeps what its table does not state.
     const { poisson_ratio: ratio } = valueAt(path) ?? {};

@@ -1,6 +1,7 @@
 // Answer of a study: its figures, the table of its runs, and its files.
 
 import { make, place, write } from "./dom.js";
+import { drawing } from "./drawings.js";
 import { plotly } from "./figures.js";
 import { draw } from "./linked.js";
 import { state } from "./runs.js";
@@ -59,12 +60,6 @@ function drawPanels(figures) {
     make("h4", {}, make("b", { textContent: layout.meta.title }), make("span", { textContent: layout.meta.note })), make("div", { class: "plot" })));
   parent.replaceChildren(...boxes);
   figures.forEach((figure, index) => draw(boxes[index].querySelector(".plot"), figure));
-}
-
-function drawing({ caption, svg }) {
-  const src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-  const image = make("img", { alt: caption, src, onload: () => URL.revokeObjectURL(src) });
-  return make("figure", {}, make("div", { class: "scroll" }, image), make("figcaption", { class: "faint", textContent: caption }));
 }
 
 function table(id, status, { table: { head, rows, numbers }, best }, load) {
