@@ -68,6 +68,15 @@ def begun(client: httpx.Client, text: str, requested: dict[str, Any]) -> str:
         (keyed("load.force", "1 N:2 N") | {"runs": "200"}, "runs", "from 1 to 100, got 200"),
         (keyed("load.force", "1 N:2 N") | {"runs": "few"}, "runs", "a whole number, got 'few'"),
         (keyed("time.steps", ", ".join(map(str, range(1, 103)))), "keys[1]", "at most 100 runs"),
+        (
+            {
+                "keys": [
+                    {"key": f"load.k{n}", "values": "1, 2, 3, 4, " * 40 + "5"} for n in range(4)
+                ]
+            },
+            "keys[1]",
+            "at most 100 runs on the page, got 671898241",  # none of them is made
+        ),
         ({"keys": 2 * FORCES["keys"]}, "keys[2]", "is given twice"),
         (
             {"keys": [*FORCES["keys"], {"key": "indenter.radius", "values": "1 mm:2 mm"}]},

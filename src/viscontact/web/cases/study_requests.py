@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import time as clock
 from collections.abc import Iterable, Iterator, Sequence
@@ -140,21 +141,21 @@ def _sweep_design(request: StudyRequest) -> Design:
         if request.has_ranges and not is_range(text):
             why = f"{key} has values and another key a range; give all keys values, or all ranges"
             raise RequestError(422, InputProblem(why, f"keys[{number}]"))
-    try:
-        if not request.has_ranges:
-            design = grid_design({key: split_values(t) for key, t in request.values.items()})
-        else:
-            values = {key: typed_parameter(text) for key, text in request.values.items()}
-            ranges = [given_range("change", key, given) for key, given in values.items()]
-            wanted = int(request.runs) if request.runs.strip() else USUAL_RUNS
-            design = sample_design(ranges, whole("runs", wanted, 1, MOST_RUNS))
-    except ValueError as error:
-        raise RequestError(422, *_study_problems([str(error)], request)) from error
-    if len(design.rows) > MOST_RUNS:
-        why = f"at most {MOST_RUNS} runs on the page, got {len(design.rows)}; "
+    values = {key: typed_parameter(text) for key, text in request.values.items()}
+    # All combinations are counted before they are made.
+    number = 0 if request.has_ranges else math.prod(map(len, values.values()))
+    if number > MOST_RUNS:
+        why = f"at most {MOST_RUNS} runs on the page, got {number}; "
         why += "`viscontact run CASE --vary` takes more"
         raise RequestError(422, InputProblem(why, "keys[1]"))
-    return design
+    try:
+        if not request.has_ranges:
+            return grid_design({key: list(given) for key, given in values.items()})
+        ranges = [given_range("change", key, given) for key, given in values.items()]
+        wanted = int(request.runs) if request.runs.strip() else USUAL_RUNS
+        return sample_design(ranges, whole("runs", wanted, 1, MOST_RUNS))
+    except ValueError as error:
+        raise RequestError(422, *_study_problems([str(error)], request)) from error
 
 
 def _corners(request: StudyRequest) -> Iterator[tuple[str, ...]]:
