@@ -23,7 +23,7 @@ from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation import checks, transient
 from viscontact.simulation.checks.adhesion import tail_warnings
-from viscontact.simulation.checks.collector import WarningCollector
+from viscontact.simulation.checks.collector import LargestExtents, WarningCollector
 from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.simulation.checks.material import (
     data_warnings,
@@ -70,7 +70,8 @@ class Observer:
         self._set_geometry(run)
         stands = run.problem.motion.stands
         self._motion = transient.StandingContact() if stands else transient.MovingContact(run)
-        self._warnings = WarningCollector()
+        self._warnings, self._extents = WarningCollector(), LargestExtents()
+        self._exceeded: dict[str, str] = {}  # extents of the contact, at the last step
         self._open = setup_warnings(run) if warns else {}
         self._since = loaded_since(run.problem.contact_load)
         clocks = run.problem.clocks
@@ -139,6 +140,7 @@ class Observer:
         state = replace(state, approach=state.approach - grown, **moved)
         if not self._run.tilts_from_datum:
             state = replace(state, tilt_x=math.nan)
+        self._extents = self._extents.after(self._exceeded, state.contact_area, step.time)
         if self._events is not None:
             self._events.after(state)
         if self._passage is not None:
@@ -184,7 +186,7 @@ class Observer:
             mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
             unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
         if last:
-            moving = self._motion.warnings()
+            moving = self._motion.warnings() | self._extents.at_end()
         found = self._warnings.new(self._open, mesh, unreported | moving)
         state = self.with_events(state)
         return replace(state, warnings=found) if found else state
@@ -212,6 +214,7 @@ class Observer:
         return {
             "issued": self._warnings.issued,
             "open": self._open,
+            "extents": vars(self._extents),
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
             "point": self._point and vars(self._point),
@@ -231,6 +234,7 @@ class Observer:
         """Continue the same run from restart data."""
         self._warnings.issued = dict(restart_data["issued"])
         self._open, self._work = dict(restart_data["open"]), restart_data["work"]
+        self._extents = LargestExtents(**restart_data["extents"])
         before, point = restart_data["before"], restart_data["point"]
         self._before = (
             None
@@ -264,13 +268,14 @@ class Observer:
     def _collect_warnings(self, step: TimeStep, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
         found = data_warnings(step.time, problem.data_times)
+        self._exceeded = {}
         if solution.outcome is not Outcome.NO_CONTACT:
             motion, displacement = solution.motion, solution.displacement
             found = self._corner_warnings(step.time, solution) | found
-            found = (
-                geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
-                | found
+            self._exceeded = geometry_warnings(
+                *(self._geometry, rim, motion, displacement, solution.pressure)
             )
+            found = self._exceeded | found
             load, measured = problem.contact_load, problem.data_times
             found = early_warnings(measured, load, step.time, step.side) | found
             half_width = min(rim.length, rim.width) / 2
