@@ -14,6 +14,7 @@ from viscontact.identification import (
     fit_wlf,
 )
 from viscontact.laws import WLF, Arrhenius, CreepSeries, RelaxationSeries, TabulatedShift
+from viscontact.tables import read_table
 
 TEMPERATURES = np.arange(360.0, 431.0, 5.0)
 T = np.geomspace(1.0, 1000.0, 19)
@@ -259,3 +260,23 @@ def isotherm(temperature, values=FALLING, name="modulus", points=(1.0, 2.0, 3.0)
 def test_bad_sets_are_refused_with_temperature_row_and_column(make, message):
     with pytest.raises(ValueError, match=message):
         make()
+
+
+def test_a_table_of_several_temperatures_gives_its_master_curve(tmp_path):
+    path = tmp_path / "dma.csv"
+    law, rule = RelaxationSeries(1e6, [1e9], [10.0]), WLF(293.15, 12.0, 70.0)
+    frequencies = np.geomspace(0.1, 100.0, 16)
+    rows = ["temperature [degC],frequency [Hz],storage modulus [MPa],loss modulus [MPa]"]
+    for celsius in (15.0, 22.0, 28.0):
+        modulus = law.slowed(rule.factor(celsius + 273.15)).complex_modulus(2 * np.pi * frequencies)
+        rows += [
+            f"{celsius},{f:.9g},{m.real / 1e6:.12g},{m.imag / 1e6:.12g}"
+            for f, m in zip(frequencies, modulus, strict=True)
+        ]
+    path.write_text("\n".join(rows), encoding="utf-8")
+    curve = build_master_curve(read_table(path))
+    assert curve.reference_temperature == close_to(295.15)  # the set nearest 20 degC
+    exact = rule.factor(curve.temperatures) / rule.factor(295.15)
+    np.testing.assert_allclose(curve.factors, exact, rtol=0.05)
+    with pytest.raises(ValueError, match=r"build_master_curve\(table\) returns, got Table"):
+        fit_master_curve(read_table(path), data="shear")

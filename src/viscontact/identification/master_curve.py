@@ -24,7 +24,9 @@ from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
 from viscontact.identification.overlap import mismatch, require_common_values
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.identification.shift_uncertainty import ShiftUncertainty
+from viscontact.identification.tabulated_sets import isotherms_of, usual_reference
 from viscontact.identification.vertical_shift import VERTICALS, Vertical
+from viscontact.tables import Table
 from viscontact.units.display import Displayable, Plotted
 
 _OWNER = "build_master_curve"
@@ -142,8 +144,8 @@ class MasterCurve(Displayable, Plotted):
 
 
 def build_master_curve(
-    isotherms: Sequence[Isotherm],
-    reference_temperature: float,
+    isotherms: Sequence[Isotherm] | Table,
+    reference_temperature: float | None = None,
     shift: Shift | None = None,
     *,
     vertical: Vertical | None = None,
@@ -153,11 +155,12 @@ def build_master_curve(
 
     Parameters
     ----------
-    isotherms : sequence of Isotherm
-        Sets of one kind of test, in any order; two or more unless `shift` is given.
-    reference_temperature : float
+    isotherms : sequence of Isotherm, or Table
+        Sets of one kind of test, in any order; two or more unless `shift` is given. Or a table that
+        has them, from `read_table`.
+    reference_temperature : float, optional
         Temperature of the master curve [K]; within the temperatures of the sets unless
-        `shift` is given.
+        `shift` is given. By default that of the set nearest 20 °C.
     shift : WLF, Arrhenius or TabulatedShift, optional
         The rule for the shift factors; found when left out.
     vertical : {"none", "rubber", "found"}, optional
@@ -206,8 +209,10 @@ def build_master_curve(
     >>> curve.vertical_factors.round(3).tolist()
     [0.983, 1.0, 1.017]
     """
-    [reference] = positive_column(_OWNER, "reference_temperature", [reference_temperature], "K")
-    ordered = _order_isotherms(isotherms, least=2 if shift is None else 1)
+    sets = isotherms_of(isotherms.sets()) if isinstance(isotherms, Table) else isotherms
+    ordered = _order_isotherms(sets, least=2 if shift is None else 1)
+    wanted = usual_reference(ordered) if reference_temperature is None else reference_temperature
+    [reference] = positive_column(_OWNER, "reference_temperature", [wanted], "K")
     temperatures = np.array([isotherm.temperature for isotherm in ordered])
     _require_vertical(vertical, shift)
     if shift is not None:
@@ -290,6 +295,11 @@ def fit_master_curve(
         The law at the reference temperature; ``fit.law.slowed(curve.shift.factor(T))``
         times the vertical factor is the law at another temperature T, as `Material.at` gives it.
 
+    Raises
+    ------
+    ValueError
+        If `curve` is no MasterCurve, or as in `fit_creep`.
+
     Warns
     -----
     AccuracyWarning
@@ -306,6 +316,11 @@ def fit_master_curve(
     >>> bool(abs(fit.law(1e4) / (1e-9 * 1e5**0.2) - 1) < 0.02)
     True
     """
+    if not isinstance(curve, MasterCurve):
+        raise ValueError(
+            "fit_master_curve: curve must be a MasterCurve, such as build_master_curve(table) "
+            f"returns, got {type(curve).__name__}"
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)
         fit = fit_measured(curve.points, curve.measured, weights=weights, **options)

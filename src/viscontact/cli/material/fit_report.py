@@ -32,7 +32,7 @@ from viscontact.identification import (
 )
 from viscontact.identification.instrument_curves import is_instrument_file
 from viscontact.identification.shift_rows import celsius, shift_rules
-from viscontact.identification.tabulated_sets import isotherms_of, usual_reference, with_volume
+from viscontact.identification.tabulated_sets import with_volume
 from viscontact.tables import Table, read_table
 
 # Quantities one of which a table has that can be fitted.
@@ -103,9 +103,8 @@ def _fit_table(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigu
         return _from_tabulated_curve(table, arguments)
     if table.has_varying_temperature:
         return _from_varying_temperature(table, arguments)
-    sets = table.sets()
-    if len(sets) > 1:
-        return _from_sets(table, sets, arguments)
+    if len(table.sets()) > 1:
+        return _from_sets(table, arguments)
     points, measured = measured_columns(table)
     _refuse_idle(fit_kinds.one_set(measured), table, arguments)
     if note := loss_note(measured):
@@ -143,26 +142,21 @@ def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[st
     return material_section(moved, temperature=wanted), drawing
 
 
-def _from_sets(
-    table: Table, sets: tuple[Table, ...], arguments: FitArguments
-) -> tuple[str, DeferredFigure]:
+def _from_sets(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
     _refuse_idle(fit_kinds.several_sets(measured_columns(table)[1]), table, arguments)
     options = arguments.options(table)
-    isotherms = isotherms_of(sets)
-    reference = (
-        usual_reference(isotherms)
-        if arguments.reference is None
-        else read_kelvin("--reference", arguments.reference)
-    )
+    reference = None
+    if arguments.reference is not None:
+        reference = read_kelvin("--reference", arguments.reference)
     with _warnings_said():
-        curve = build_master_curve(isotherms, reference, **arguments.superposition())
+        curve = build_master_curve(table, reference, **arguments.superposition())
     rules = shift_rules(curve)
     print_shifts(curve, rules)
     with _warnings_said():
         fit = fit_master_curve(curve, weights=arguments.weights, **options)
     fit = with_volume(fit, *arguments.volume())
-    put(f"\nAt {celsius(reference)}:\n{fit!r}")
+    put(f"\nAt {celsius(curve.reference_temperature)}:\n{fit!r}")
     drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
     if arguments.temperature is None:
         return material_section(fit, curve), drawing
