@@ -91,7 +91,10 @@ def test_an_interrupted_fit_goes_on_with_resume_only(
         ((*COMMAND, *MODULUS, "--runs", "1"), "--runs: 1 are too few for this fit"),
         ((*COMMAND, *MODULUS, "--indenter", "sphere 5 mm"), "--indenter does not go with --case"),
         ((*COMMAND, *MODULUS, "--law", "zener"), "--law does not go with --case"),
-        ((*COMMAND, *MODULUS, "--no-thermal-strain"), "--thermal-strain does not go with --case"),
+        (
+            (*COMMAND, *MODULUS, "--thermal-strain", "no"),
+            "--thermal-strain does not go with --case",
+        ),
         *((("fit", "a.csv", *typed), f"{typed[0]}: needs --case CASE.yaml") for typed in OF_RUNS),
         (("fit", "a.csv", *MODULUS), "--change: needs --case CASE.yaml"),
         (("fit", "a.csv", "--report", "a.html"), "--report: needs --case CASE.yaml"),

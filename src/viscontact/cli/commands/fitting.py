@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +11,14 @@ import typer
 from viscontact.cli.commands import study_options
 from viscontact.cli.commands.drawing import Width
 from viscontact.cli.commands.study_options import Settings
+
+
+class Answer(StrEnum):
+    """Answer to a question."""
+
+    YES = "yes"
+    NO = "no"
+
 
 Tables = Annotated[
     list[Path],
@@ -114,9 +123,10 @@ Shift = Annotated[
     ),
 ]
 ThermalStrain = Annotated[
-    bool | None,
+    Answer | None,
     typer.Option(
-        "--thermal-strain/--no-thermal-strain",
+        "--thermal-strain",
+        metavar="yes|no",
         help="Find thermal expansion in the strain of such a creep test, or take none; by default "
         "where the strain shows it.",
     ),

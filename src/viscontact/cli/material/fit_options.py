@@ -55,7 +55,7 @@ class FitArguments:
     reach: float | None = None
     until: str | None = None
     shift: str | None = None
-    thermal_strain: bool | None = None
+    thermal_strain: str | None = None  # "yes" or "no"
     reference_time: str | None = None
     thickness: str | None = None
 
@@ -80,6 +80,11 @@ class FitArguments:
         """Law of an indentation record."""
         usual = "elastic" if self.adhesion else _USUAL_LAW
         return usual if self.law is None else self.law
+
+    @property
+    def expands(self) -> bool | None:
+        """Whether the strain of a creep test has thermal expansion; None to find out."""
+        return None if self.thermal_strain is None else self.thermal_strain == "yes"
 
     def options(self, table: Table) -> FitOptions:
         """Return the options for the fit of a series to a table."""

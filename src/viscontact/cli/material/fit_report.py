@@ -124,7 +124,7 @@ def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[st
     options, on_clock = arguments.options(table), arguments.on_clock(table["temperature"])
     with _warnings_said(table.located):
         if "compliance" in measured:
-            creep, strain = measured["compliance"], arguments.thermal_strain
+            creep, strain = measured["compliance"], arguments.expands
             fit = fit_creep(points, creep, **options, **on_clock, thermal_strain=strain)
         else:
             fit = fit_relaxation(points, measured["modulus"], **options, **on_clock)
