@@ -201,8 +201,8 @@ def test_refused_argument_is_named(given: dict[str, object], message: str) -> No
         vc.steady(*STEADY, **given)
 
 
-def test_layers_under_friction_are_refused_by_name() -> None:
+def test_coupled_layers_under_friction_are_refused_by_name() -> None:
     rubber = vc.Material(vc.Elastic(1e6), 0.5)
     covered = vc.Layered([vc.Layer(5e-3, rubber)], base="rigid")
-    with pytest.raises(ValueError, match=r"^friction: bodies of layers are not supported"):
+    with pytest.raises(ValueError, match=r"^friction\.coupling: .* give coupling=False"):
         vc.steady(STEADY[0], covered, *STEADY[2:], friction=0.3, creepage=0.01)
