@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import viscontact as vc
 from viscontact.drawing.svg.html import written
-from viscontact.report.stress_chapter import stress_chapter, stress_text
+from viscontact.report.stress_chapter import stress_below, stress_chapter, stress_text
 from viscontact.results.peak_stress import PeakStress, peak_stress
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -38,3 +39,15 @@ def test_nothing_is_shown_without_fields_or_of_layers() -> None:
     cover = vc.Layered([vc.Layer(5e-3, RUBBER)], base="rigid")
     layered = vc.simulate(BALL, cover, LOAD, GRID, [0.0], errors=False)
     assert [list(stress_chapter(each)) for each in (without, layered)] == [[], []]
+
+
+def test_report_of_steady_traction_states_the_stress_at_the_largest_one() -> None:
+    rubber = vc.Material(vc.Elastic(1e6), 0.5)
+    cells = {"grid": vc.Grid((1, 60), (1.0, 6e-3), periodic=(True, False)), "friction": 0.5}
+    rolled = vc.Paraboloid(np.inf, 0.01), rubber, vc.step(100.0, tilt_y=0.0), 0.1
+    ds = vc.steady(*rolled, creepage=[0.05, 0.0, 0.001], **cells)
+    found = stress_below(ds)
+    assert found is not None
+    assert "at 100 mm/s and a creepage of 5 %" in stress_text(ds, found)
+    [gripped, free] = (peak_stress(ds.isel(creepage=[n]), "von_mises").value for n in (0, 1))
+    assert found.value == gripped > 1.05 * free

@@ -11,7 +11,7 @@ from viscontact.results.last_cycle_values import first_largest
 from viscontact.results.recorded_case import recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
-from viscontact.results.stress_source import LOADS
+from viscontact.results.stress_source import LOADS, at_largest_traction
 from viscontact.results.stresses import REACH, section_stresses
 
 #: Number of depths of the search, and of those around the deepest of them.
@@ -35,11 +35,14 @@ class PeakStress:
 def peak_stress(ds: xr.Dataset, name: str) -> PeakStress:
     """Return the largest stress on the two vertical planes through the largest pressure of a run.
 
+    Of several creepages under that of the largest traction.
+
     ValueError, with the reason, where that instant has no stored fields, or no known stresses.
     """
     # The error is the sum of the relative error of the peak pressure, to which stresses are
     # proportional, the change of the stress on cells of twice the size, and that between the depths
     # of the search.
+    ds = at_largest_traction(ds)
     peaks = np.nan_to_num(ds["peak_pressure"].values)
     row = first_largest(peaks)
     place = float(run_axis(ds).values(ds)[row])
