@@ -277,12 +277,12 @@ def _doubts(
             f"the shift over the record, {change:.2g} decades, is that of an activation energy of "
             f"{energy / 1e3:.0f} kJ/mol, where the search ends: each step of the temperature is a "
             "test of its own then, and many laws fit. Check that the rows follow the temperature "
-            "through its ramps, try --no-thermal-strain, or give the shift"
+            "through its ramps, try --thermal-strain no, or give the shift"
         )
     if chosen:
         doubts.append(
             "a part of the strain follows the temperature at once, as thermal expansion does: "
             f"{1e6 * fit.expansion:.3g} /(MPa K), found with the law and subtracted; decide "
-            "yourself by thermal_strain (--thermal-strain, --no-thermal-strain)"
+            "yourself by thermal_strain (--thermal-strain yes or no)"
         )
     return tuple(doubts)
