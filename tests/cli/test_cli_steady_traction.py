@@ -1,5 +1,7 @@
 """Cases of steady rolling with traction: read, checked, run, resumed, shown and exported."""
 
+import csv
+import io
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ from closeness import close_to
 from interrupted_runs import same_bits, stopped_after
 from viscontact.case import read_case
 from viscontact.cli import main
+from viscontact.results.history_csv import write_history
 
 CASE = """\
 title: Drive roller
@@ -103,9 +106,10 @@ def test_check_show_and_export_go_by_speed(
     assert "3, from -0.02 to 0.03" in capsys.readouterr().out
     assert main(["show", str(finished)]) == 0
     assert main(["export", str(finished), "-o", "out.csv"]) == 0
-    header = Path("out.csv").read_text(encoding="utf-8").splitlines()[0]
+    header, *rows = Path("out.csv").read_text(encoding="utf-8").splitlines()
     assert "friction_coefficient" in header
-    assert "tangential_force" not in header
+    assert "tangential_force_y" in header
+    assert len(rows) == 2 * 3  # speeds and creepages
 
 
 def test_show_prints_tractions_over_creepage_and_where_all_slides(
@@ -206,3 +210,16 @@ def test_coupled_layers_under_friction_are_refused_by_name() -> None:
     covered = vc.Layered([vc.Layer(5e-3, rubber)], base="rigid")
     with pytest.raises(ValueError, match=r"^friction\.coupling: .* give coupling=False"):
         vc.steady(STEADY[0], covered, *STEADY[2:], friction=0.3, creepage=0.01)
+
+
+@pytest.mark.filterwarnings("ignore:load. tilt_y is free:viscontact.AccuracyWarning")
+def test_table_of_an_export_has_a_row_for_each_creepage() -> None:
+    ds = vc.steady(*STEADY, friction=0.3, creepage=[0.001, 0.01], errors=False)
+    written = io.StringIO()
+    write_history(ds, written)
+    rows = list(csv.DictReader(io.StringIO(written.getvalue())))
+    assert [float(row["creepage"]) for row in rows] == ds.creepage.values.tolist()
+    for name in ("tangential_force_y [N]", "drive_torque [N m]"):
+        values = ds[name.partition(" ")[0]].values.ravel()
+        np.testing.assert_array_equal([float(row[name]) for row in rows], values)
+    assert {row["speed [m/s]"] for row in rows} == {repr(float(ds.speed[0]))}

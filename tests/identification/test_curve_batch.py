@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -160,3 +161,16 @@ def test_places_are_kept_and_have_a_map_beside_each_histogram() -> None:
     np.testing.assert_allclose(squares.get_array(), np.array(moduli) / 1e3, rtol=1e-6)
     corners = [path.vertices[:4].mean(axis=0) for path in squares.get_paths()]
     np.testing.assert_allclose(corners, 1e6 * np.array(list(places.values())), atol=1e-9)
+
+
+def test_a_batch_is_printed_as_its_summary() -> None:
+    fits = fit_each(elastic, {f"{modulus:g}": hertz(modulus) for modulus in (1e3, 2e3, 4e3)})
+    lines = str(fits).splitlines()
+    assert lines[0] == "Fits of many curves"
+    assert [" ".join(line.split()) for line in lines[1:3]] == [
+        "curves 3 of 3 curves",
+        "shear modulus 2 kPa (half of the curves: 1.5 kPa to 3 kPa)",
+    ]
+    assert len(lines) == 4
+    warned = replace(fits.curves[0], warning="the record leaves open exponent")
+    assert "3 of 3 curves, 1 with warnings" in repr(CurveFits((warned, *fits.curves[1:])))

@@ -151,9 +151,41 @@ def test_what_a_film_does_not_go_with_is_refused():
     twice = record_of([*rise, *rise[-2::-1], *rise[1:]])
     with pytest.raises(ValueError, match="a second approach begins at 20 s"):
         fit_indentation(twice, "elastic", **film)
-    wide = record_of(rise, 1e-2)
-    with pytest.raises(ValueError, match=r"the contact is .* times as wide .* thick"):
+    # On an incompressible film the table ends where a half-space has a contact of 4.56 thicknesses.
+    wide = record_of(rise, (4.7 * THICKNESS) ** 2 / 0.8e-6)
+    with pytest.raises(ValueError, match=r"the contact is more than 8 times as wide .* thick"):
         fit_indentation(wide, "elastic", **film)
+    narrow = record_of(rise, (4.4 * THICKNESS) ** 2 / 0.8e-6)
+    fit = fit_indentation(narrow, "elastic", **film)
+    assert fit.parameters["shear_modulus"] == close_to(500.0, rel=1e-6)
+    tip = vc.indenters.Pyramid(0.6, faces=4)
+    pyramid = IndentationRecord(tip, once.times, once.approach, once.force)
+    with pytest.raises(ValueError, match="thickness: goes with spheres, cones and round punches"):
+        fit_indentation(pyramid, "elastic", **film)
+
+
+def test_a_record_that_begins_before_contact_is_fitted_from_its_touch_on():
+    rise = np.linspace(-0.1, 0.5, 25)
+    noisy = np.array([0.0, -1e-3, 5e-4, -5e-4, *np.linspace(0.02, 0.5, 20)])
+    for course in (rise, noisy):
+        fit = fit_indentation(record_of(course), "elastic", poisson_ratio=NU, thickness=THICKNESS)
+        assert fit.parameters["shear_modulus"] == close_to(500.0, rel=1e-3)
+
+
+def test_a_record_that_begins_with_a_jump_relaxes_as_the_law():
+    times = np.append([0.0], np.geomspace(0.01, 5.0, 40))
+    depth = np.full(times.size, 0.8e-6)
+    elastic = elastic_indentation(Sphere(RADIUS), Film(THICKNESS, NU))
+    # E* relaxes as 2 G(t)/(1 - nu), of the Zener law from G to G G'/(G + G').
+    relaxed, tau = 500.0 * 333.0 / 833.0, 277.0 / 833.0
+    modulus = relaxed + (500.0 - relaxed) * np.exp(-times / tau)
+    force = 2 * modulus / (1 - NU) * elastic.force(0.8e-6)
+    record = IndentationRecord(Sphere(RADIUS), times, depth, force)
+    fit = fit_indentation(record, "zener", poisson_ratio=NU, thickness=THICKNESS)
+    # Of second order in the steps, over which the force changes evenly.
+    assert fit.residual < 2e-4
+    for name, value in TRUTH.items():
+        assert fit.parameters[name] == close_to(value, rel=2e-3)
 
 
 def test_an_indentation_beyond_small_strains_of_the_film_is_warned_of():

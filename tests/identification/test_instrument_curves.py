@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -165,6 +166,39 @@ def test_curves_without_a_place_are_fitted_without_maps(tmp_path):
     gel_map(tmp_path / "gel.h5", MODULI[:2], -1)
     gel = vc.read_force_map(tmp_path / "gel.h5")
     assert not gel.places
+    assert repr(gel) == "ForceMap: 4 curves, 0 with places, 0 that cannot be read"
+    records = {
+        name: vc.find_contact(curve, vc.Sphere(5e-6)).record() for name, curve in gel.curves.items()
+    }
+    fits = vc.fit_each(
+        lambda record: vc.fit_indentation(record, "elastic", poisson_ratio=0.5),
+        records,
+        places=gel.places,
+    )
+    labels = [axes.get_xlabel() for axes in vc.plot.curve_fits(fits).axes]
+    assert labels == ["Shear modulus [Pa]", "Young's modulus [kPa]"]
+    # A map of a parameter that only curves without a place have is left out.
+    placed = replace(fits.curves[0], values={}, place=(0.0, 0.0))
+    mixed = vc.identification.CurveFits((placed, *fits.curves[1:]))
+    assert len(vc.plot.curve_fits(mixed).axes) == 2
+
+
+def test_maps_of_one_name_keep_all_curves_and_a_bad_one_only_fails_itself(
+    tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        gel_map(tmp_path / folder / "gel.h5", MODULI[:1], -1, **GRID)
+    written(tmp_path / "k.h5", curves=2, **{"spring constant": None})
+    options = ["--indenter", "sphere 5 um", "--law", "elastic", "--poisson-ratio", "0.5"]
+    assert main(["fit", "a/gel.h5", "b/gel.h5", "k.h5", *options, "-j", "1"]) == 0
+    assert "k.h5" in capsys.readouterr().err
+    with Path("fits.csv").open(encoding="utf-8", newline="") as file:
+        names = [row["curve"] for row in csv.DictReader(file) if row["shear_modulus [Pa]"]]
+    assert names == [f"{folder}/gel.h5#{number}" for folder in "ab" for number in range(2)]
+    assert main(["fit", "k.h5", *options]) == 2
+    assert "none of " in capsys.readouterr().err
 
 
 def test_a_curve_of_a_map_that_lacks_a_column_is_named_and_the_others_are_read(tmp_path):

@@ -278,5 +278,9 @@ def test_a_table_of_several_temperatures_gives_its_master_curve(tmp_path):
     assert curve.reference_temperature == close_to(295.15)  # the set nearest 20 degC
     exact = rule.factor(curve.temperatures) / rule.factor(295.15)
     np.testing.assert_allclose(curve.factors, exact, rtol=0.05)
+    # A reference that is a set's temperature but for rounding is that of the set.
+    near = build_master_curve(read_table(path), 295.15 + 1e-13)
+    assert near.reference_temperature == curve.isotherms[1].temperature
+    assert build_master_curve(read_table(path), 288.15 - 1e-13).factors[0] == 1
     with pytest.raises(ValueError, match=r"build_master_curve\(table\) returns, got Table"):
         fit_master_curve(read_table(path), data="shear")

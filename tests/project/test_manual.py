@@ -18,6 +18,7 @@ import typer
 from sphinx.errors import ExtensionError
 
 import viscontact
+import viscontact.identification
 import viscontact.plot
 from returned import some
 from viscontact.case.sections import case_schema

@@ -54,9 +54,9 @@ def test_warnings_of_runs_that_differ_in_numbers_are_listed_once() -> None:
     texts = ["", "\n".join([deep.format(0.12), f"a seam {MARKUP}"]), deep.format(0.3)]
     ds["warnings"] = "load.force", texts
     page = sweep_page(ds, title="deep")
-    assert f"2 runs warn, as run 1: {deep.format(0.12)}" in page
+    assert f"2 runs warn, as run 2: {deep.format(0.3)}" in page
     assert "run 1: a seam" in page
-    assert deep.format(0.3) not in page
+    assert deep.format(0.12) not in page
     assert "<script>alert" not in page
 
 

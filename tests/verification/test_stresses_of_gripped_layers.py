@@ -109,3 +109,26 @@ def test_a_driven_cover_is_sheared_at_its_bond_by_the_traction():
     more, below = tractions[1] - tractions[0], found[1] - found[0]
     middle = np.abs(ds.y.values) < 0.4 * float(ds.contact_width[0]) / 2
     np.testing.assert_allclose(below[middle], -more[middle], atol=0.03 * np.abs(more).max())
+
+
+def test_a_traction_that_jumps_stresses_creeping_layers_from_then_on():
+    soft = vc.Material(vc.CreepSeries(5e-9, [2e-8], [1.0]), 0.45)
+    hard = vc.Material(vc.CreepSeries(1e-9, [4e-9], [30.0]), 0.3)
+    body = vc.Layered([vc.Layer(2e-4, soft), vc.Layer(3e-4, hard)], base="rigid")
+    pull = vc.TangentialHistory([0.0, 5.0, 5.0, 20.0], force_x=[0.0, 0.0, 0.5, 0.5])
+
+    def stresses(times):
+        ds = vc.simulate(
+            *(vc.Paraboloid(RADIUS, RADIUS), body, vc.step(2.0)),
+            *(vc.Grid((24, 24), (1.4e-3, 1.4e-3)), times),
+            friction=UNCOUPLED,
+            tangential=pull,
+            errors=False,
+        )
+        return vc.section_stresses(ds, [1e-4, 3e-4], times=[6.0]).isel(time=0)
+
+    # The step over the jump is as long as it likes.
+    long, short = stresses([0.0, 4.0, 6.0]), stresses([0.0, 4.0, 4.999, 5.0, 5.001, 5.5, 6.0])
+    for name in ("stress_xx", "stress_xz"):
+        size = float(np.abs(short[name]).max())
+        np.testing.assert_allclose(long[name].values, short[name].values, atol=0.02 * size)

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import web.served_page as seen
+from closeness import close_to
 from viscontact.case import read_case_text
 from web.calculator_page import CASE
 
@@ -37,7 +38,7 @@ def test_a_cylinder_is_chosen_loaded_per_length_and_rolled(tmp_path: Path) -> No
         text = page.evaluate("sessionStorage['viscontact.case']")
         case = read_case_text(text, "case.yaml")
         assert case.grid is None
-        assert case.indenter.radius_y == pytest.approx(1 / (1 / 10e-3 + 1 / 20e-3))
+        assert case.indenter.radius_y == close_to(1 / (1 / 10e-3 + 1 / 20e-3))
         seen.run(page, "#refine")
         assert seen.fact(page, "Force per length") == "40 kN/m"
         assert seen.fact(page, "Width of the strip").startswith("8.2")

@@ -1,6 +1,6 @@
 from .adhesion import fit_adhesion
 from .adhesion_fit import AdhesionFit
-from .contact_point import ContactPoint, deflection_in_contact, find_contact
+from .contact_point import ContactPoint, find_contact
 from .curve_batch import CurveFits, fit_each
 from .fitted_contact import FittedContact
 from .fitted_curve import FittedCurve
@@ -39,7 +39,6 @@ __all__ = [
     "adhesive_sections",
     "build_master_curve",
     "count_force_curves",
-    "deflection_in_contact",
     "find_contact",
     "fit_adhesion",
     "fit_arrhenius",

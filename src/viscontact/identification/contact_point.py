@@ -13,7 +13,7 @@ from viscontact.identification.force_curve import ForceCurve
 from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.stroke import Stroke
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import whole
+from viscontact.units.numbers import real_array, whole
 
 _CANDIDATES = 100  # of the contact point in the first search
 _LEAST_BASELINE = 0.05  # of the loading rows: fewer do not determine a line
@@ -76,6 +76,24 @@ class ContactPoint:
     def bending(self) -> Floats:
         """Deflection less the baseline, of each row [m]."""
         return self.curve.deflection - self.offset - self.slope * self.curve.position
+
+    def elastic_bending(self, position: Floats) -> Floats:
+        """Return the bending of the cantilever on the best-fitting elastic body.
+
+        Parameters
+        ----------
+        position : ndarray
+            Positions of the base [m].
+
+        Returns
+        -------
+        ndarray
+            Deflection beyond the baseline, 0 before contact [m].
+        """
+        way = real_array("position", position, "m") - self.position
+        return deflection_in_contact(
+            self.indenter, self.contact_modulus, self.curve.spring_constant, way
+        )
 
     def record(self, rows: int = 2000) -> IndentationRecord:
         """Return the whole curve as a record, as means over equal numbers of rows.

@@ -149,6 +149,8 @@ class CurveFits(Displayable, Plotted):
     def __repr__(self) -> str:
         total, found = len(self.curves), len(self.fitted)
         lines = [f"CurveFits: {found} of {total} curves"]
+        if warned := sum(bool(each.warning) for each in self.fitted):
+            lines[0] += f", {warned} with warnings"
         for name in self.parameters:
             unit = self.unit_of(name)
             values = self.values_of(name)

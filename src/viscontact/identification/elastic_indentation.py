@@ -27,7 +27,7 @@ from viscontact.reference import (
 PYRAMIDS = {3: 0.8824, 4: 0.7376}
 
 _SPHERE, _CONE, _PUNCH = 1.5, 2.0, 1.0  # exponents of the indentation in the force
-#: Largest contact radius over the thickness of a film: that of the last row of its table.
+#: Largest contact radius over the thickness of a film, on it: that of the last row of its table.
 WIDEST = 8.0
 #: Contact radii over the thickness, of the table of a film: close where it is thick.
 _RATIOS = WIDEST * np.linspace(0.0, 1.0, 25)[1:] ** 2
@@ -93,6 +93,13 @@ class ElasticIndentation:
         growth = rise * ratio / (1 + ratio) * (self.exponent - 1)
         return slope * depth, slope * (self.exponent + growth)
 
+    def is_within_table(self, depth: float) -> bool:
+        """False for a contact wider than those of the table of a film."""
+        if self.film is None or not self.grows:
+            return self.contact_ratio(depth) <= WIDEST
+        table = _stiffening(self.exponent, self.film.poisson_ratio)
+        return math.log1p(self.contact_ratio(depth)) <= float(table.places[-1])
+
     def contact_ratio(self, depth: float) -> float:
         """Contact radius over thickness at an indentation, as on a half-space; 0 without film."""
         if self.film is None:
@@ -102,6 +109,12 @@ class ElasticIndentation:
 
 def elastic_indentation(indenter: Indenter, film: Film | None = None) -> ElasticIndentation:
     """Elastic force of an indenter; ValueError for one without a closed form."""
+    if film is not None and isinstance(indenter, Pyramid):
+        raise ValueError(
+            "thickness: goes with spheres, cones and round punches; the contacts of a pyramid on a "
+            "film are not similar: take a cone of the same area over the depth, or fit through the "
+            "simulator"
+        )
     match indenter_profile(indenter):
         case SphereProfile(radius=radius):
             return ElasticIndentation(4 / 3 * math.sqrt(radius), _SPHERE, film, math.sqrt(radius))

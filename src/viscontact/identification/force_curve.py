@@ -8,12 +8,13 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.series_fits.columns import columns_over_time
 from viscontact.tables import Table
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import positive, store
 
 _LEAST_ROWS = 20
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ForceCurve:
     """Deflection of a cantilever over the position of its base, before and in contact.
 
@@ -62,6 +63,13 @@ class ForceCurve:
         if _is_falling(columns["position"], columns["deflection"]):
             columns["position"] = -columns["position"]
         store(self, **columns, spring_constant=stiffness)
+
+    def __repr__(self) -> str:
+        duration = format_quantity(float(np.ptp(self.times)), "s")
+        return (
+            f"ForceCurve: {self.times.size} rows over {duration}, "
+            f"{format_quantity(self.spring_constant, 'N/m')}"
+        )
 
     @property
     def loading_rows(self) -> int:

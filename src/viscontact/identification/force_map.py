@@ -8,7 +8,12 @@ from pathlib import Path
 
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.identification.force_curve import ForceCurve
-from viscontact.identification.instrument_curves import read_apart, recorded_curve, split_number
+from viscontact.identification.instrument_curves import (
+    is_instrument_file,
+    read_apart,
+    recorded_curve,
+    split_number,
+)
 from viscontact.identification.instrument_reader import count_curves, read_all
 
 #: Those that may hold several curves.
@@ -18,7 +23,7 @@ _MAPS = (".jpk-force-map", ".jpk-qi-data", ".jpk-qi-series", ".h5")
 _COLUMNS = ("time", "position", "force")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ForceMap:
     """Force curves of a file, of `read_force_map`.
 
@@ -40,6 +45,12 @@ class ForceMap:
     curves: Mapping[str, ForceCurve]
     places: Mapping[str, tuple[float, float]]
     failures: Mapping[str, str]
+
+    def __repr__(self) -> str:
+        return (
+            f"ForceMap: {len(self.curves)} curves, {len(self.places)} with places, "
+            f"{len(self.failures)} that cannot be read"
+        )
 
 
 def count_force_curves(path: str | PathLike[str]) -> int:
@@ -101,6 +112,11 @@ def read_force_map(path: str | PathLike[str], *, spring_constant: float | None =
     >>> fits = fit_each(fit, gel.curves, places=gel.places)  # doctest: +SKIP
     """
     file = Path(path)
+    if not is_instrument_file(file):
+        raise ValueError(
+            f"{file.name}: is no file of an instrument; read_force_curve reads a table, which has "
+            "one curve"
+        )
     found = read_apart(file, read_all, spring_constant)
     curves, places, failures = {}, {}, {}
     for number, stated in enumerate(found.values):

@@ -203,12 +203,11 @@ def _require_one_approach(record: IndentationRecord) -> None:
 
 def _require_narrow(fit: IndentationFit, elastic: ElasticIndentation) -> None:
     """Refuse a contact beyond the table of a film."""
-    ratio = elastic.contact_ratio(fit.deepest)
-    if ratio > WIDEST:
+    if not elastic.is_within_table(fit.deepest):
         raise ValueError(
-            f"fit_indentation: the contact is {ratio:.2g} times as wide from its centre as the "
-            f"film is thick, and the solution ends at {WIDEST:g}; end the fit before with until, "
-            "or fit through the simulator"
+            f"fit_indentation: the contact is more than {WIDEST:g} times as wide from its centre "
+            "as the film is thick, where the solution ends; end the fit before with until, or fit "
+            "through the simulator"
         )
 
 

@@ -30,6 +30,7 @@ from viscontact.tables import Table
 from viscontact.units.display import Displayable, Plotted
 
 _OWNER = "build_master_curve"
+_SAME = 1e-6  # K: temperatures that differ by less are equal
 
 
 class SuperpositionOptions(TypedDict, total=False):
@@ -213,6 +214,9 @@ def build_master_curve(
     ordered = _order_isotherms(sets, least=2 if shift is None else 1)
     wanted = usual_reference(ordered) if reference_temperature is None else reference_temperature
     [reference] = positive_column(_OWNER, "reference_temperature", [wanted], "K")
+    # 20 °C is the temperature of a set at 20 °C, however both are rounded in kelvin.
+    near = min((each.temperature for each in ordered), key=lambda each: abs(each - reference))
+    reference = near if abs(near - reference) < _SAME else reference
     temperatures = np.array([isotherm.temperature for isotherm in ordered])
     _require_vertical(vertical, shift)
     if shift is not None:

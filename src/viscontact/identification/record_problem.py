@@ -78,8 +78,7 @@ class RecordProblem:
         """Exact solution for the other quantity of the record [N or m]."""
         times, approach, force, lead = _from_contact(self.record, self.elastic)
         if self.elastic.film is not None:
-            mean = lag_mean(material.contact_compliance())
-            return PressedTip(self.elastic).force(times, approach, mean)[lead:]
+            return self._on_film(times, approach, material)[lead:]
         contact = reference.press_axisymmetric(
             self.record.profile,
             times,
@@ -94,6 +93,21 @@ class RecordProblem:
             row = int(np.argmax(~np.isfinite(response)))
             raise ValueError(f"fit_indentation: the exact solution gives no number in row {row}")
         return np.asarray(response)
+
+    def _on_film(self, times: Floats, approach: Floats, material: Material) -> Floats:
+        """Force on a film: from the last touch before the largest approach on, 0 before it [N]."""
+        free = np.flatnonzero(approach[: int(approach.argmax())] <= 0)
+        first, touch = 0, float(times[0])
+        if free.size:
+            first = int(free[-1]) + 1
+            around = slice(first - 1, first + 1)
+            (low, high), (begin, end) = approach[around], times[around]
+            touch = float(begin + low / (low - high) * (end - begin))
+        # A record that begins in contact jumps into it, in a step of no duration.
+        nodes, way = np.append(touch, times[first:]), np.append(0.0, approach[first:])
+        mean = lag_mean(material.contact_compliance())
+        force = PressedTip(self.elastic).force(nodes, way, mean)[1:]
+        return np.append(np.zeros(first), force)
 
 
 def _from_contact(

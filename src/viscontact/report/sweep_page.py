@@ -165,9 +165,16 @@ def warnings_of(ds: xr.Dataset) -> list[str]:
 
 
 def _stated(warnings: list[tuple[str, str]]) -> str:
-    """Sentence for warnings of runs that differ in numbers alone: the first one."""
-    count, (name, text) = len({name for name, _ in warnings}), warnings[0]
+    """Sentence for warnings of runs that differ in numbers alone: that of the largest one."""
+    count = len({name for name, _ in warnings})
+    name, text = max(warnings, key=lambda each: _first_number(each[1]))
     return f"{name}: {text}" if count == 1 else f"{count} runs warn, as {name}: {text}"
+
+
+def _first_number(text: str) -> float:
+    """First number of a sentence, without its unit; 0 without one."""
+    found = re.search(r"\d+(?:\.\d+)?", text)
+    return float(found[0]) if found else 0.0
 
 
 def _list_of_first(lines: list[str]) -> Element | None:

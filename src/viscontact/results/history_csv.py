@@ -21,14 +21,32 @@ def write_history(
     ds: xr.Dataset, file: IO[str], points: Sequence[tuple[float, float]] = ()
 ) -> None:
     """Write all scalars of a result and their errors in SI units with every digit."""
-    # A row is an instant, or a speed in steady motion. Behind them are the margins to the allowable
-    # values, and the pressure at some points (x, y) [m], empty where no fields are stored.
+    # A row is an instant, or a speed in steady motion, and there a creepage, if there are any,
+    # whose values follow. Behind them are the margins to the allowable values, and the pressure at
+    # some points (x, y) [m], empty where no fields are stored.
     writer = csv.writer(file, lineterminator="\n")
-    further = {**_margins(ds), **_pressures(ds, points)}
-    writer.writerow([*_header(ds), *further])
+    further, curves = {**_margins(ds), **_pressures(ds, points)}, _curves(ds)
+    writer.writerow([*_header(ds), *curves, *further])
     for number, row in enumerate(_rows(ds)):
-        cells = (column[number] for column in further.values())
-        writer.writerow([*row, *("" if math.isnan(cell) else cell for cell in cells)])
+        cells = [column[number] for column in further.values()]
+        over = zip(*(each[number] for each in curves.values()), strict=True)
+        for values in over if curves else [()]:
+            numbers = (*values, *cells)
+            writer.writerow([*row, *("" if math.isnan(each) else each for each in numbers)])
+
+
+def _curves(ds: xr.Dataset) -> dict[str, list[list[float]]]:
+    """Values over the creepages at each speed by the headings of their columns; none without."""
+    if "creepage" not in ds.dims:
+        return {}
+    over = (run_axis(ds).name, "creepage")
+    creepages = [ds["creepage"].values.tolist()] * ds.sizes[over[0]]
+    found = {column_heading("creepage", "1"): creepages}
+    for name, values in ds.data_vars.items():
+        if values.dims == over:
+            heading = column_heading(str(name), str(values.attrs.get("units", "1")))
+            found[heading] = values.values.tolist()
+    return found
 
 
 def _margins(ds: xr.Dataset) -> dict[str, list[float]]:

@@ -177,17 +177,27 @@ class StressSource:
     def _of_history(self) -> Floats:
         """Loads of the responses at all stored instants."""
         assert self.history is not None  # used for creeping layers only
-        load = recorded_object(self.results, "load", "stresses")
-        jumps = np.zeros(0) if load is None else load.jumps
-        # Both at once, so that a jump at a stored instant is at it on the clock, too.
-        marks = np.unique(np.concatenate([self.stored, jumps]))
+        pressed = self._jumps("load")
+        # Tractions jump with the pressure, too.
+        pulled = np.unique(np.concatenate([pressed, self._jumps("tangential")]))
+        # All at once, so that a jump at a stored instant is at it on the clock, too.
+        marks = np.unique(np.concatenate([self.stored, pulled]))
         reduced = self.clock.reduced(marks)
-        instants, falls = (reduced[np.searchsorted(marks, each)] for each in (self.stored, jumps))
-        loads = [
-            sign * np.asarray(self.results[name].values, dtype=np.float64)
-            for name, sign in zip(LOADS, self.signs, strict=False)
-        ]
-        return np.concatenate([self.history.loads(instants, each, falls) for each in loads])
+
+        def on_clock(times: Floats) -> Floats:
+            return np.asarray(reduced[np.searchsorted(marks, times)])
+
+        found = []
+        for name, sign in zip(LOADS, self.signs, strict=False):
+            load = sign * np.asarray(self.results[name].values, dtype=np.float64)
+            jumps = on_clock(pressed if name == LOADS[0] else pulled)
+            found.append(self.history.loads(on_clock(self.stored), load, jumps))
+        return np.concatenate(found)
+
+    def _jumps(self, name: str) -> Floats:
+        """Instants at which a recorded load jumps; none where it is not recorded [s]."""
+        load = recorded_object(self.results, name, "stresses")
+        return np.zeros(0) if load is None else np.asarray(load.jumps, dtype=np.float64)
 
 
 def stress_source(
@@ -241,9 +251,10 @@ def at_largest_traction(results: xr.Dataset) -> xr.Dataset:
     """Results at the creepage of the largest force along the surface; others unchanged."""
     if "creepage" not in results.dims:
         return results
-    forces = [results[f"tangential_force_{axis}"].values for axis in "xy"]
-    largest = np.hypot(*forces).max(axis=0)  # over the speeds
-    return results.isel(creepage=int(largest.argmax()))
+    along_x, along_y = (results[f"tangential_force_{axis}"].fillna(0.0) for axis in "xy")
+    squares = along_x**2 + along_y**2
+    largest = squares.max([dim for dim in squares.dims if dim != "creepage"])
+    return results.isel(creepage=int(largest.values.argmax()))
 
 
 def _signs(results: xr.Dataset, body: Body) -> tuple[float, ...]:

@@ -89,13 +89,26 @@ class _Curves:
                 sources[name] = file
                 continue
             fit_kinds.INSTRUMENT_CURVE.refuse_idle(file.name, arguments.given)
-            found = read_force_map(file, spring_constant=arguments.stiffness())
-            sources |= found.curves
-            places |= found.places
+            try:
+                found = read_force_map(file, spring_constant=arguments.stiffness())
+            except (ValueError, OSError) as error:
+                failed.append(FittedCurve(name, {}, {}, {}, failure=str(error)))
+                continue
+            # As in `read_force_map`, by the name that tells files of different directories apart.
+            sources |= {_renamed(curve, name): each for curve, each in found.curves.items()}
+            places |= {_renamed(curve, name): each for curve, each in found.places.items()}
             failed += [
-                FittedCurve(curve, {}, {}, {}, failure=why) for curve, why in found.failures.items()
+                FittedCurve(_renamed(curve, name), {}, {}, {}, failure=why)
+                for curve, why in found.failures.items()
             ]
-        return cls(sources, places, tuple(failed))
+        # Each map has a place of its own for its origin: two would lie on each other.
+        maps = {curve.rpartition("#")[0] for curve in places}
+        return cls(sources, places if len(maps) == 1 else {}, tuple(failed))
+
+
+def _renamed(curve: str, file: str) -> str:
+    """Name of a curve of a map with the name of its file."""
+    return f"{file}#{curve.rpartition('#')[2]}"
 
 
 def report_fits(
@@ -113,6 +126,9 @@ def report_fits(
         curves = _Curves.of(files, arguments)
     except (ValueError, OSError) as error:
         refuse(str(error))
+    if not curves.sources:
+        _print_failures(CurveFits(curves.failed))
+        refuse(f"none of {len(curves.failed)} curves could be read")
     total = len(curves.sources)
     workers = jobs if total >= _WORTH_PROCESSES else 1
     lines = "{done} of {total} curves, about {left:.0f} s left"

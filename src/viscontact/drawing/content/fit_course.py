@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscontact import identification
 from viscontact.backend.arrays import Floats
 from viscontact.drawing.content.panel import (
     FAINT,
@@ -153,9 +152,7 @@ def contact_panel(contact: ContactPoint, units: Units = readable_unit) -> Panel:
     every = slice(None, None, -(-curve.position.size // _MOST))
     along = np.linspace(curve.position.min(), curve.position.max(), _SAMPLES)
     baseline = contact.offset + contact.slope * along
-    elastic = baseline + identification.deflection_in_contact(
-        contact.indenter, contact.contact_modulus, curve.spring_constant, along - contact.position
-    )
+    elastic = baseline + contact.elastic_bending(along)
     return Panel(
         Axis.of("Position", "m", curve.position, units=units),
         Axis.of("Deflection", "m", curve.deflection, units=units),

@@ -20,6 +20,7 @@ from viscontact.drawing.content.load_course import whole_load_panel
 from viscontact.drawing.content.small_panels import law_panels
 from viscontact.drawing.content.temperature_course import temperature_panel
 from viscontact.drawing.svg.measurements import (
+    curve_fits_overview,
     fit_overview,
     indentation_fit_overview,
     isotherm_overview,
@@ -32,7 +33,13 @@ from viscontact.drawing.svg.result_overview import result_overview
 from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.drawing.svg.surface_map import surface_overview
-from viscontact.identification import IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.identification import (
+    CurveFits,
+    IndentationFit,
+    IndentationRecord,
+    Isotherm,
+    MasterCurve,
+)
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.descriptions import describe
@@ -122,6 +129,7 @@ _MEASURED: dict[type[Displayable], Callable[[Any], Overview]] = {
     IndentationRecord: record_overview,
     Fit: fit_overview,
     IndentationFit: indentation_fit_overview,
+    CurveFits: curve_fits_overview,
     Isotherm: isotherm_overview,
     MasterCurve: master_curve_overview,
     MaterialCard: _material_overview,

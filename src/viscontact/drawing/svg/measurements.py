@@ -18,7 +18,13 @@ from viscontact.drawing.content.small_panels import (
 )
 from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.panel_drawing import panel_drawing
-from viscontact.identification import IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.identification import (
+    CurveFits,
+    IndentationFit,
+    IndentationRecord,
+    Isotherm,
+    MasterCurve,
+)
 from viscontact.results.argument_table import in_plain_words
 from viscontact.results.formatting import format_percent
 from viscontact.units.formatting import format_number, format_quantity
@@ -83,6 +89,14 @@ def indentation_fit_overview(fit: IndentationFit) -> Overview:
         *([("warning", fit.misfit.reason.value)] if fit.misfit else []),
     ]
     return _overview("Fit of an indentation", rows, [indentation_fit_panel(fit)])
+
+
+def curve_fits_overview(fits: CurveFits) -> Overview:
+    """Make the overview of fits to many curves: medians, and the range of half of the curves."""
+    title, *rows = repr(fits).splitlines()
+    stated = [tuple(row.strip().split(" = ", 1)) for row in rows if " = " in row]
+    named = [(name.replace("_", " "), value) for name, value in stated]
+    return _overview("Fits of many curves", [("curves", title.partition(": ")[2]), *named], [])
 
 
 def isotherm_overview(isotherm: Isotherm) -> Overview:

@@ -30,6 +30,9 @@ SEAM = 2.0
 #: Words of the warnings of a contact at the end of a profile, which the result keeps.
 AT_THE_END = "the end of the indenter's profile"
 
+#: Kinds of warnings of extents that grow with the contact.
+EXTENTS = frozenset({"slope", "width", "approach", "thickness", "cover", "squeeze"})
+
 #: Kinds of warnings under which the peak pressure does not converge with the mesh.
 SINGULAR_KINDS = frozenset({"sharp_end", "seam", "corner"})
 

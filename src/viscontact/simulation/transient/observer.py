@@ -24,7 +24,11 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation import checks, transient
 from viscontact.simulation.checks.adhesion import tail_warnings
 from viscontact.simulation.checks.collector import LargestExtents, WarningCollector
-from viscontact.simulation.checks.half_space_theory import corner_warnings, geometry_warnings
+from viscontact.simulation.checks.half_space_theory import (
+    EXTENTS,
+    corner_warnings,
+    geometry_warnings,
+)
 from viscontact.simulation.checks.material import (
     data_warnings,
     early_warnings,
@@ -272,10 +276,11 @@ class Observer:
         if solution.outcome is not Outcome.NO_CONTACT:
             motion, displacement = solution.motion, solution.displacement
             found = self._corner_warnings(step.time, solution) | found
-            self._exceeded = geometry_warnings(
+            exceeded = geometry_warnings(
                 *(self._geometry, rim, motion, displacement, solution.pressure)
             )
-            found = self._exceeded | found
+            self._exceeded = {kind: text for kind, text in exceeded.items() if kind in EXTENTS}
+            found = exceeded | found
             load, measured = problem.contact_load, problem.data_times
             found = early_warnings(measured, load, step.time, step.side) | found
             half_width = min(rim.length, rim.width) / 2

@@ -55,17 +55,30 @@ def run_outline(directory: Path) -> RunOutline:
             columns = frozenset(set(COLUMNS) & set(end))
             verdict, decided_by = (str(end.get(name, "")) for name in ("verdict", "decided_by"))
             values = _run_values(directory) if _ADHERES in columns else {}
-            warned = tuple(map(str, end.get("all_warnings", ())))
+            warned = _warnings(end, directory)
             fields = end.get("fields")
             return RunOutline(over, rows, columns, fields, verdict, decided_by, values, warned)
     with StoredFile(directory / RESULT_NAME, noted=False) as file:
         over = _axis_of(file)
         rows = np.asarray(file.variables[over][:], dtype=np.float64)
         columns, values = frozenset(_stored_columns(file)), _values_of(file)
-        stated = "warnings" in file.ncattrs()
-        warned = tuple(str(file.getncattr("warnings")).splitlines()) if stated else ()
+        warned = _stated_warnings(file)
         fields = described_fields(file)
         return RunOutline(over, rows, columns, fields, values=values, warnings=warned)
+
+
+def _warnings(end: Mapping[str, Any], directory: Path) -> tuple[str, ...]:
+    """Warnings by the last line of a log; by the result of one of an earlier version."""
+    if "all_warnings" in end:
+        return tuple(map(str, end["all_warnings"]))
+    with StoredFile(directory / RESULT_NAME, noted=False) as file:
+        return _stated_warnings(file)
+
+
+def _stated_warnings(file: StoredFile) -> tuple[str, ...]:
+    if "warnings" not in file.ncattrs():
+        return ()
+    return tuple(str(file.getncattr("warnings")).splitlines())
 
 
 def run_scalars(directory: Path) -> Floats:

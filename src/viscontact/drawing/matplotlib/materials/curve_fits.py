@@ -21,6 +21,7 @@ from viscontact.units.formatting import format_quantity, readable_unit
 
 if TYPE_CHECKING:
     from viscontact.identification.curve_batch import CurveFits
+    from viscontact.identification.fitted_curve import FittedCurve
 
 #: Ratio of the values beyond which their axis is logarithmic.
 _WIDE = 10.0
@@ -73,10 +74,19 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
         values, unit = fits.values_of(name), fits.unit_of(name)
         _histogram(next(panels), name, unit, values)
         if fits.has_places:
-            _map(next(panels), fits, name)
+            beside = next(panels)
+            if any(_is_mapped(each, name) for each in fits.curves):
+                _map(beside, fits, name)
+            else:
+                beside.remove()
     for unused in panels:
         unused.remove()
     return figure
+
+
+def _is_mapped(curve: FittedCurve, name: str) -> bool:
+    """Whether place and value of a curve are known."""
+    return curve.place is not None and math.isfinite(curve.values.get(name, math.nan))
 
 
 def _map(axes: Axes, fits: CurveFits, name: str) -> None:
