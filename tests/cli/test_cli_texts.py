@@ -24,7 +24,7 @@ from viscontact.cli.sweep.plan_options import PlanOptions, share_a_branch
 from viscontact.cli.sweep.request import ManyRequest
 from viscontact.cli.sweep.table import first_names
 from viscontact.runs.processes.request import RunRequest
-from viscontact.studies.typed_values import bounds, split_values
+from viscontact.studies.typed_values import bounds, is_range, split_values
 
 
 def test_place_of_a_scalar_is_an_instant_or_a_speed() -> None:
@@ -113,6 +113,23 @@ def test_command_that_resumes_many_runs_has_all_files() -> None:
 
 def test_names_beyond_the_first_are_counted() -> None:
     assert first_names(["a", "b", "c"], 2) == "a, b and 1 more"
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("1 mm:2 mm", True),
+        ("[1 mm, 2 mm]:[2 mm, 3 mm]", True),
+        ("pmma-paper, {law: elastic, shear_modulus: 1 MPa}", False),
+        ("pmma, [a: b", False),  # a bracket that is not closed
+        ("'Run: first', \"Run: second\"", False),
+        ("'a' : 'b'", True),
+        ("5 kN, 10 kN", False),
+        ("", False),
+    ],
+)
+def test_a_range_has_colons_outside_brackets_and_quotes(text: str, found: bool) -> None:
+    assert is_range(text) is found
 
 
 def test_parts_of_a_range_are_separated_by_colons() -> None:

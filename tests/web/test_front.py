@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
@@ -85,6 +87,20 @@ def test_a_server_that_ends_before_its_application_is_made_ends_that_too(tmp_pat
         shown.end()
         assert client.get("/api/examples").status_code == 200
         assert page["calculator"].is_to_end
+
+
+def test_a_fault_while_the_application_begins_is_told_to_who_asks() -> None:
+    @asynccontextmanager
+    async def begin(application: FastAPI) -> AsyncIterator[None]:
+        raise RuntimeError("no beginning")
+        yield
+
+    front_of_none = Front(lambda: FastAPI(lifespan=begin))
+    with (
+        TestClient(front_of_none, base_url=HOST) as client,
+        pytest.raises(RuntimeError, match="no beginning"),
+    ):
+        client.get("/api/examples")
 
 
 def test_a_fault_while_the_application_is_made_is_told_to_who_asks() -> None:

@@ -6,8 +6,10 @@ import csv
 import io
 import json
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NoReturn, cast
 
 import httpx
 import pytest
@@ -15,6 +17,10 @@ from fastapi.testclient import TestClient
 
 from closeness import close_to
 from viscontact.cli import main
+from viscontact.web.runs import study_answers
+from viscontact.web.runs.run_figures import look_of
+from viscontact.web.runs.study import StudyRun
+from viscontact.web.workspace.problems import RequestError
 from web.calculator_page import CASE, asking, followed, status, until
 
 FORCES = {"keys": [{"key": "load.force", "values": "2 N, 4 N"}]}
@@ -77,6 +83,19 @@ def begun(client: httpx.Client, text: str, requested: dict[str, Any]) -> str:
             "keys[1]",
             "at most 100 runs on the page, got 671898241",  # none of them is made
         ),
+        (
+            {
+                **{"kind": "design", "goal": "peak_pressure"},
+                "keys": [{"key": f"load.k{n}", "values": "1:2"} for n in range(5)],
+            },
+            "keys[5]",
+            "at most 4 keys on the page, got 5",
+        ),
+        (
+            design("load.force", ", ".join(f"{n} N" for n in range(1, 102))),
+            "keys[1]",
+            "at most 100 values to choose from on the page, got 101",
+        ),
         ({"keys": 2 * FORCES["keys"]}, "keys[2]", "is given twice"),
         (
             {"keys": [*FORCES["keys"], {"key": "indenter.radius", "values": "1 mm:2 mm"}]},
@@ -126,6 +145,23 @@ def test_problems_are_an_answer_for_a_page_that_expects_them(client: TestClient)
     assert (refused.status_code, expected.status_code) == (422, 200)
     assert expected.json() == refused.json()
     assert (expected.headers["x-problems"], refused.headers.get("x-problems")) == ("422", None)
+
+
+def test_only_a_fault_of_the_files_is_told_as_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> NoReturn:
+        raise ValueError("a fault")
+
+    run = cast(StudyRun, SimpleNamespace(is_sweep=True, directory=tmp_path))
+    look = look_of("auto", dark=False)
+    monkeypatch.setattr(study_answers, "open_many", lambda _: nullcontext())
+    monkeypatch.setattr(study_answers, "_responses", fail)
+    with pytest.raises(ValueError, match=r"^a fault"):
+        study_answers.study_answer(run, look, dark=False)
+    monkeypatch.setattr(study_answers, "open_many", fail)
+    with pytest.raises(RequestError, match="the files of this study cannot be read: a fault"):
+        study_answers.study_answer(run, look, dark=False)
 
 
 def test_a_single_run_is_no_study(client: TestClient) -> None:

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 
 
 def split_values(text: str) -> list[str]:
     """Split at commas outside brackets and quotes."""
-    pieces, depth, quote = [""], 0, ""
-    for letter in text:
-        if quote:
-            quote = "" if letter == quote else quote
-        elif letter in _QUOTES and not pieces[-1].strip():
-            quote = letter
-        else:
-            depth += (letter in _OPENING) - (letter in _CLOSING)
-            if letter == "," and depth == 0:
-                pieces.append("")
-                continue
-        pieces[-1] += letter
-    return [piece.strip() for piece in pieces]
+    commas = [place for place in _outside(text) if text[place] == ","]
+    ends = zip([-1, *commas], [*commas, len(text)], strict=True)
+    return [text[comma + 1 : end].strip() for comma, end in ends]
 
 
 def bounds(text: str) -> tuple[str, ...]:
@@ -28,10 +20,25 @@ def bounds(text: str) -> tuple[str, ...]:
 
 
 def is_range(text: str) -> bool:
-    """True for a range, which has colons outside brackets."""
-    return ":" in text and text[0] not in _OPENING
+    """True for a range, which has colons outside brackets and quotes."""
+    return any(text[place] == ":" for place in _outside(text))
 
 
 def typed_parameter(text: str) -> tuple[str, ...] | list[str]:
     """Bounds of a range as a tuple, or a list of values."""
     return bounds(text) if is_range(text) else split_values(text)
+
+
+def _outside(text: str) -> Iterator[int]:
+    """Places of the letters outside brackets and quotes; a quote begins a value."""
+    depth, quote, is_begin = 0, "", True
+    for place, letter in enumerate(text):
+        if quote:
+            quote = "" if letter == quote else quote
+        elif letter in _QUOTES and is_begin:
+            quote, is_begin = letter, False
+        else:
+            depth += (letter in _OPENING) - (letter in _CLOSING)
+            if depth == 0:
+                yield place
+            is_begin = (letter == "," and depth == 0) or (is_begin and letter.isspace())

@@ -62,11 +62,12 @@ class Front:
             await asyncio.wait_for(self._asked.wait(), FIRST_PAGE)
         try:
             application = await asyncio.to_thread(self._make)
+            async with application.router.lifespan_context(application):
+                made.set_result(application)
+                if self._is_to_end:  # asked meanwhile
+                    self.end()
+                await self._over.wait()
         except BaseException as error:
-            made.set_exception(error)
+            if not made.done():  # else those who ask would wait for ever
+                made.set_exception(error)
             raise
-        async with application.router.lifespan_context(application):
-            made.set_result(application)
-            if self._is_to_end:  # asked meanwhile
-                self.end()
-            await self._over.wait()

@@ -34,6 +34,8 @@ from viscontact.web.workspace.problems import (
 #: Most runs of a sweep on the page, whose cases are all read before the first one, and runs of
 #: ranges by default.
 MOST_RUNS, USUAL_RUNS = 100, 8
+#: Most keys of a design on the page.
+MOST_KEYS = 4
 #: Longest list of values in a label.
 _LONGEST = 40
 
@@ -114,6 +116,8 @@ def new_study(
 def _require_fields(request: StudyRequest) -> None:
     """Raise RequestError with each field that is empty or no number."""
     problems = []
+    if request.kind == "design":
+        _limit(len(request.keys), MOST_KEYS, "keys", "design", f"keys[{MOST_KEYS + 1}]")
     if not request.keys:
         problems.append(InputProblem("name a key to vary, as load.force", "keys"))
     for number, each in enumerate(request.keys, start=1):
@@ -135,6 +139,12 @@ def _require_fields(request: StudyRequest) -> None:
         raise RequestError(422, *problems)
 
 
+def _limit(number: int, most: int, what: str, command: str, place: str = "keys[1]") -> None:
+    if number > most:
+        why = f"at most {most} {what} on the page, got {number}; `viscontact {command}` takes more"
+        raise RequestError(422, InputProblem(why, place))
+
+
 def _sweep_design(request: StudyRequest) -> Design:
     """Runs of a sweep: all combinations of the values, or points that fill the ranges."""
     for number, (key, text) in enumerate(request.values.items(), start=1):
@@ -144,10 +154,7 @@ def _sweep_design(request: StudyRequest) -> Design:
     values = {key: typed_parameter(text) for key, text in request.values.items()}
     # All combinations are counted before they are made.
     number = 0 if request.has_ranges else math.prod(map(len, values.values()))
-    if number > MOST_RUNS:
-        why = f"at most {MOST_RUNS} runs on the page, got {number}; "
-        why += "`viscontact run CASE --vary` takes more"
-        raise RequestError(422, InputProblem(why, "keys[1]"))
+    _limit(number, MOST_RUNS, "runs", "run CASE --vary")
     try:
         if not request.has_ranges:
             return grid_design({key: list(given) for key, given in values.items()})
@@ -161,6 +168,9 @@ def _sweep_design(request: StudyRequest) -> Design:
 def _corners(request: StudyRequest) -> Iterator[tuple[str, ...]]:
     """Settings at the ends of the ranges of a design, and with each of its choices."""
     change = {key: typed_parameter(text) for key, text in request.values.items()}
+    # They are counted before they are made: the case is read for each of them.
+    number = sum(len(given) if isinstance(given, list) else 2 for given in change.values())
+    _limit(number, MOST_RUNS, "values to choose from", "design")
     try:
         corners = space_of(change).corners()
     except ValueError as error:

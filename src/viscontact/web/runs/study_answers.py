@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import numpy as np
@@ -161,13 +161,17 @@ def _require_row(number: int, count: int) -> None:
 
 @contextmanager
 def _sweep(run: StudyRun) -> Iterator[xr.Dataset]:
-    with _as_answer(), open_many(run.directory) as ds:
+    with ExitStack() as opened:
+        with _as_answer():  # the opening alone: a fault in what is made of it is no damaged file
+            ds = opened.enter_context(open_many(run.directory))
         yield ds
 
 
 @contextmanager
 def _trials(run: StudyRun) -> Iterator[xr.Dataset]:
-    with _as_answer(), open_results(run.directory / TRIALS_NAME) as table:
+    with ExitStack() as opened:
+        with _as_answer():
+            table = opened.enter_context(open_results(run.directory / TRIALS_NAME))
         yield table
 
 

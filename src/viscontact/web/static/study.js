@@ -58,7 +58,22 @@ function requested() {
   return { kind, keys, sense, goal, runs, constraints: limits.map(({ scalar, sign, bound }) => `${scalar}${sign}${bound}`) };
 }
 
-const hasRange = () => asked.keys.some(({ values }) => values.includes(":"));
+const hasRange = () => asked.keys.some(({ values }) => isRange(values));
+
+// A range has colons outside brackets and quotes, which begin a value; as the server reads it.
+function isRange(text) {
+  let depth = 0, quote = "", isBegin = true;
+  for (const letter of text) {
+    if (quote) quote = letter === quote ? "" : quote;
+    else if (isBegin && "\"'".includes(letter)) [quote, isBegin] = [letter, false];
+    else {
+      depth += "[{".includes(letter) - "]}".includes(letter);
+      if (letter === ":" && depth === 0) return true;
+      isBegin = (letter === "," && depth === 0) || (isBegin && !letter.trim());
+    }
+  }
+  return false;
+}
 
 function keep() {
   try { sessionStorage.setItem(KEPT, JSON.stringify(asked)); } catch { /* storage is disabled */ }
@@ -177,7 +192,12 @@ function offerKeys() {
 }
 
 function keyOptions(known, chosen) {
-  const groups = Map.groupBy(known.values(), ({ path, value }) => (value === undefined ? `${titleOf(path[0])}, not set` : path.length > 1 ? titleOf(path[0]) : "Case"));
+  const groups = new Map();
+  for (const each of known.values()) {
+    const { path, value } = each;
+    const label = value === undefined ? `${titleOf(path[0])}, not set` : path.length > 1 ? titleOf(path[0]) : "Case";
+    groups.set(label, [...(groups.get(label) ?? []), each]);
+  }
   const boxes = [...groups].sort(([a], [b]) => a.endsWith("not set") - b.endsWith("not set")).map(([label, entries]) => make("optgroup", { label },
     entries.map(({ path, value }) => option(dotted(path), textOf(path, value)))));
   const strange = chosen && !known.has(chosen) && option(chosen, `${chosen} (not in the case)`);
