@@ -1,10 +1,12 @@
 // Values of other sections that go with a chosen kind, such as steps of a cell of way with a motion.
 
-import { setValue, valueAt } from "./draft.js";
+import { draft, setValue, valueAt } from "./draft.js";
 import { INSTEAD, WITH } from "./hints.js";
 
 // What was set, by its section and key: the value before and the new one.
 const set = new Map();
+// The values of another text are its own: none of them is put back.
+draft.addEventListener("replaced", () => set.clear());
 const isAlike = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 // Puts back what went with the earlier kind of a section, and sets what goes with the new one.

@@ -130,10 +130,10 @@ function spelt(path, each) {
   return box;
 }
 
-// A quantity times a factor, with its unit; none if it is none.
+// A quantity times a factor, with its unit; a text that is none, such as "12,5 mm", as it is.
 function scaled(text, factor) {
-  const [, number, unit] = String(text ?? "").match(/^\s*(\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*)$/i) ?? [];
-  return number === undefined ? undefined : `${Number((factor * number).toPrecision(12))} ${unit}`.trim();
+  const [, number, unit] = String(text ?? "").match(/^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(?!\s*[\d.,+-])\s*(.*)$/i) ?? [];
+  return number === undefined ? text : `${Number((factor * number).toPrecision(12))} ${unit}`.trim();
 }
 
 // One shape, or a sum of shapes.

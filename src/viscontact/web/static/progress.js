@@ -8,7 +8,7 @@ import { lasting } from "./units.js";
 
 let spoken = "";
 
-// `study` repeats a study that has failed.
+// `study` sends the study in the form, in place of one that has failed.
 export function setUpProgress(complain, study) {
   place("cancel").addEventListener("click", () => cancel().catch(complain));
   place("resume").addEventListener("click", () => resume(state.active.id).catch(complain));
