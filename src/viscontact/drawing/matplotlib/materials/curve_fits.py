@@ -53,7 +53,7 @@ def curve_fits(fits: CurveFits, *, width: Width | None = None) -> Figure:
 
     Examples
     --------
-    >>> from viscontact.identification import FittedCurve
+    >>> from viscontact.identification import CurveFits, FittedCurve
     >>> curves = tuple(
     ...     FittedCurve(str(G), {"shear_modulus": G}, {}, {"shear_modulus": "Pa"})
     ...     for G in (1e3, 2e3, 2.5e3, 4e3)
