@@ -48,7 +48,7 @@ WATCHED = (
 KILLS = tried(12, 30)
 STEP = tried(12288, 6144)  # by which the limit grows [bytes]
 #: Entries of the progress that a run adds when it ends.
-AT_THE_END = {*ERRORS, "complete", "fields", DIGEST}
+AT_THE_END = {*ERRORS, "complete", "fields", "all_warnings", DIGEST}
 
 
 def differing(result: Path, whole: xr.Dataset) -> list[str]:
