@@ -142,3 +142,26 @@ def test_a_design_takes_the_limit_of_the_material(tmp_path: Path) -> None:
             constraints=["approach<=allowable"],
             workers=1,
         )
+
+
+@pytest.mark.parametrize("part", ["layers[0].material", "base"])
+@pytest.mark.parametrize("name", ["yield_stress", "fatigue_limit"])
+def test_limits_of_parts_of_layers_are_refused_as_nothing_compares_them(
+    part: str, name: str, tmp_path: Path
+) -> None:
+    plain = "law: elastic, youngs_modulus: 2 MPa, poisson_ratio: 0.3"
+    limited = f"{plain}, {name}: 1 MPa"
+    layer, base = (limited, plain) if part != "base" else (plain, limited)
+    path = tmp_path / "covered.yaml"
+    path.write_text(
+        "indenter: {shape: sphere, radius: 10 mm}\n"
+        f"material: {{layers: [{{thickness: 5 mm, {layer}}}], base: {{{base}}}}}\n"
+        "load: {kind: step, force: 1 N}\ntime: {end: 1 s, steps: 2}\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(CaseError, match=f"{name}: stresses inside layers are not compared"):
+        read_case(path)
+    materials = vc.Material(vc.Elastic(1e6), 0.3), vc.Material(vc.Elastic(1e6), 0.3, **{name: 1e6})
+    own, beneath = materials if part == "base" else materials[::-1]
+    with pytest.raises(ValueError, match="states a yield stress or a fatigue limit"):
+        vc.Layered([vc.Layer(5e-3, own)], base=beneath)

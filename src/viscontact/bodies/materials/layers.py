@@ -206,6 +206,12 @@ def _check_material(part: str, material: object) -> None:
     if not isinstance(material, Material):
         rigid = ' or "rigid"' if part == "base" else ""
         raise ValueError(f"Layered: the {part} must be a Material{rigid}, got {material!r}")
+    if material.yield_stress is not None or material.fatigue_limit is not None:
+        raise ValueError(
+            f"Layered: the material of the {part} states a yield stress or a fatigue limit, with "
+            "which stresses inside layers are not compared; leave it out, and look at "
+            "section_stresses"
+        )
     if material.thickness is not None:
         raise ValueError(
             f"Layered: the material of the {part} states a thickness of its own; give that of the "

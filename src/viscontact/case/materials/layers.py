@@ -36,6 +36,16 @@ def _without_ends(material: Medium | Literal["rigid"]) -> Medium | Literal["rigi
     return material
 
 
+def _without_limits(material: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
+    for name in ("yield_stress", "fatigue_limit"):
+        if not isinstance(material, str) and getattr(material, name) is not None:
+            raise ValueError(
+                f"{name}: stresses inside layers are not compared with it; leave it out, and look "
+                "at the figure stress-section"
+            )
+    return material
+
+
 def _deep(base: Medium | Literal["rigid"]) -> Medium | Literal["rigid"]:
     if not isinstance(base, str) and base.thickness is not None:
         raise ValueError(
@@ -76,7 +86,10 @@ class Layer(Section):
 
     thickness: Length = Field(description="of the layer")
     material: Annotated[
-        AnyMaterial, AfterValidator(_without_thickness), AfterValidator(_without_ends)
+        AnyMaterial,
+        AfterValidator(_without_thickness),
+        AfterValidator(_without_ends),
+        AfterValidator(_without_limits),
     ] = Field(
         description="material of the layer; its keys may be written beside thickness as well",
         examples=["epdm-70-25c"],
@@ -150,7 +163,11 @@ class Layers(Section):
         min_length=1, description="from the surface down; where they are given, law may be left out"
     )
     base: Annotated[
-        AnyMaterial, _OrRigid(), AfterValidator(_deep), AfterValidator(_without_ends)
+        AnyMaterial,
+        _OrRigid(),
+        AfterValidator(_deep),
+        AfterValidator(_without_ends),
+        AfterValidator(_without_limits),
     ] = Field(
         description="material beneath the layers, infinitely deep, or rigid", examples=[RIGID]
     )

@@ -38,7 +38,7 @@ from viscontact.mechanics.halfspace.layered_stress import (
     hankel_at_zero,
     hankel_rule,
     integrals_along,
-    sampled_edges,
+    sums_of_corners,
     without_tiny,
 )
 from viscontact.mechanics.halfspace.shear_stress_influence import shear_stress_coefficients
@@ -94,11 +94,11 @@ class LayeredShearStress(StressResponse):
             turned = self.exchanged.coefficients(y_edges, x_edges, depth)
             return turned[EXCHANGED].swapaxes(1, 2)
         length = self.stack.layers[0].thickness
-        x, y = (sampled_edges(np.asarray(edges) / length) for edges in (x_edges, y_edges))
-        table = self._table(depth, float(np.hypot(np.abs(x.edges).max(), np.abs(y.edges).max())))
-        corners = _corner_terms(table, x.edges, y.edges)
-        sampled = np.diff(np.diff(corners, axis=1)[:, x.cells], axis=2)[:, :, y.cells]
-        found = x.at_all(y.at_all(sampled, axis=2), axis=1)
+
+        def corners(x: Floats, y: Floats, reach: float) -> Floats:
+            return _corner_terms(self._table(depth, reach), x, y)
+
+        found = sums_of_corners(corners, x_edges / length, y_edges / length)
         if layer_at(self.stack, depth) == 0:
             nu = self.stack.layers[0].poisson_ratio
             found += shear_stress_coefficients(x_edges, y_edges, depth, nu)

@@ -98,11 +98,11 @@ class LayeredStress(PressureStress):
 
     def coefficients(self, x_edges: Floats, y_edges: Floats, depth: float) -> Floats:
         """Stresses at a point per unit pressure on cells, as in `stress_coefficients` [-]."""
-        x, y = (sampled_edges(np.asarray(edges) / self._length) for edges in (x_edges, y_edges))
-        table = self._table(depth, float(np.hypot(np.abs(x.edges).max(), np.abs(y.edges).max())))
-        corners = _corner_terms(table, x.edges, y.edges)
-        sampled = np.diff(np.diff(corners, axis=1)[:, x.cells], axis=2)[:, :, y.cells]
-        found = x.at_all(y.at_all(sampled, axis=2), axis=1)
+
+        def corners(x: Floats, y: Floats, reach: float) -> Floats:
+            return _corner_terms(self._table(depth, reach), x, y)
+
+        found = sums_of_corners(corners, x_edges / self._length, y_edges / self._length)
         if layer_at(self.stack, depth) == 0:
             nu = self.stack.layers[0].poisson_ratio
             found += stress_coefficients(x_edges, y_edges, depth, nu)
@@ -187,7 +187,20 @@ def _hankel_table(amplitudes: Numbers, count: int, q: Numbers, hankel: tuple[Any
     return _Table(transforms, rate.antiderivative())
 
 
-def sampled_edges(edges: Floats) -> SampledCells:
+def sums_of_corners(
+    corners: Callable[[Floats, Floats, float], Floats], x_edges: Floats, y_edges: Floats
+) -> Floats:
+    """Double differences of corner terms over cells, interpolated from those of some of them.
+
+    `corners` takes the edges of these, and the reach of all; lengths are those of the correction.
+    """
+    x, y = _sampled_edges(x_edges), _sampled_edges(y_edges)
+    terms = corners(x.edges, y.edges, float(np.hypot(*(np.abs(e.edges).max() for e in (x, y)))))
+    sampled = np.diff(np.diff(terms, axis=1)[:, x.cells], axis=2)[:, :, y.cells]
+    return np.asarray(x.at_all(y.at_all(sampled, axis=2), axis=1))
+
+
+def _sampled_edges(edges: Floats) -> SampledCells:
     """Cells that stand for a row, as the correction is analytic to a distance of one length."""
     widths = np.diff(edges)
     is_even = np.allclose(widths, widths[0], rtol=1e-6, atol=0.0)
