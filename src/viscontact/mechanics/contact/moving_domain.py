@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,12 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.response_parts import Operator
 from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.ended_half_space import (
+    EndedResponse,
+    WeightedOperators,
+    has_ends,
+    parts_of,
+)
 from viscontact.mechanics.halfspace.influence import influence_coefficient
 from viscontact.mechanics.halfspace.layered_influence import (
     layered_influence_coefficient,
@@ -30,6 +37,9 @@ from viscontact.mechanics.halfspace.periodic_influence import periodic_influence
 from viscontact.mechanics.halfspace.preconditioner import MovingPreconditioner
 from viscontact.mechanics.halfspace.spectral import MovingPeriodicConvolution, WaveFactor
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
+
+#: Compliance of a surface at rest.
+REST = MovingCompliance(1.0, np.empty(0), np.empty(0))
 
 #: Fewest cells of a coarser grid along an axis.
 COARSEST = 32
@@ -71,10 +81,18 @@ class MovingDomain(ContactDomain):
         shape = coarser_shape(self.grid.shape)
         if shape is None or np.any(np.logical_and(self.mirrored, np.mod(shape, 2))):
             return None
+        if not all(self._ended.can_be_halved(response) for response, _ in self.surface.terms):
+            return None
         return self._on_grid(replace(self.grid, shape=shape))
 
     def with_elastic(self, added: float) -> MovingDomain:
         """Same region with an elastic compliance added to the operator [1/Pa]."""
+        if self._ends:  # what its operators are made of is kept
+            domain = copy(self)
+            domain._added = added
+            domain._build_operators()
+            domain._last = domain.whole
+            return domain
         return self._on_grid(self.grid, added, self._moving_table)
 
     @cached_property
@@ -82,6 +100,8 @@ class MovingDomain(ContactDomain):
         """Displacement per unit elastic compliance [Pa m] of pressure [Pa] on all cells."""
         if all(self.grid.periodic):
             return self._filter_operator([(self._at_rest, np.ones_like)], self.shape)
+        if self._ends:
+            return self._sum_with_ends([(self._at_rest, REST, 1.0)], self.shape, 0)
         return self._convolved(self._elastic_table(self._at_rest), self.shape)
 
     @cached_property
@@ -91,6 +111,8 @@ class MovingDomain(ContactDomain):
         if all(self.grid.periodic):
             factors = [(response, moving.loss_at_wave_number) for response, moving in terms]
             return self._filter_operator(factors, self.shape)
+        if self._ends:
+            return self._loss_with_ends
         first, *others = (self._loss_of_term(*term) for term in terms)
         return self._convolved(sum(others, start=first) + self._drift, self.shape)
 
@@ -126,8 +148,7 @@ class MovingDomain(ContactDomain):
     def _elastic_table(self, response: SurfaceResponse) -> Floats:
         """Influence table of an elastic surface, kept."""
         if response not in self._tables:
-            rest = MovingCompliance(1.0, np.empty(0), np.empty(0))
-            self._tables[response] = self._table_of_term(response, rest)
+            self._tables[response] = self._table_of_term(response, REST)
         return self._tables[response]
 
     def _table_of_term(self, response: SurfaceResponse, compliance: MovingCompliance) -> Floats:
@@ -139,12 +160,12 @@ class MovingDomain(ContactDomain):
 
     def _loss_of_term(self, response: SurfaceResponse, moving: MovingCompliance) -> Floats:
         """Table of the slope of the delayed displacement under a term."""
-        rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
+        rates = _rates_of(moving)
         elastic = self._elastic_table(response)
         return rates.relaxed * elastic - self._table_of_term(response, rates)
 
     def _influence_table(self) -> Floats:
-        if all(self.grid.periodic):
+        if all(self.grid.periodic) or self._ends:
             return np.empty((0, 0))
         if self._moving_table is None:
             relative = self.surface.scaled(1 / self.compliance)
@@ -181,7 +202,72 @@ class MovingDomain(ContactDomain):
         if all(self.grid.periodic):
             factors = [(response, moving.at_wave_number) for response, moving in self._relative]
             return self._filter_operator(factors, shape, single=single)
+        if self._ends:
+            terms = [(response, moving, 1.0) for response, moving in self._scaled_terms]
+            terms += [(self._at_rest, REST, self._added / self.compliance)] * bool(self._added)
+            found = self._sum_with_ends(terms, shape, start, single=single)
+            return found if self._datum is None else found.less(self._datum)
         return self._convolved(self._coefficients, shape, single=single)
+
+    @property
+    def _ends(self) -> bool:
+        """True of a half-space that ends."""
+        return any(has_ends(response) for response, _ in self.surface.terms)
+
+    @cached_property
+    def _scaled_terms(self) -> tuple[tuple[SurfaceResponse, MovingCompliance], ...]:
+        """Terms over the reference compliance [-]."""
+        return self.surface.scaled(1 / self.compliance).terms
+
+    @property
+    def _loss_with_ends(self) -> WeightedOperators:
+        """Slope of the delayed displacement of a half-space that ends."""
+        terms = []
+        for response, moving in self.surface.terms:
+            rates = _rates_of(moving)
+            terms += [(response, REST, rates.relaxed), (response, rates, -1.0)]
+        return self._sum_with_ends(terms, self.shape, 0)
+
+    @cached_property
+    def _datum(self) -> float | None:
+        """Least displacement by a unit of pressure on a cell, if old loads have no datum [Pa m]."""
+        # Between two ends displacement counts from the farthest place on, as that of the memory is
+        # far.
+        responses = [part for response, _ in self.surface.terms for part, _ in parts_of(response)]
+        ended = [part for part in responses if isinstance(part, EndedResponse)]
+        if all(None in part.planes for part in ended):
+            return None
+        terms = [(response, moving, 1.0) for response, moving in self._scaled_terms]
+        operator = self._sum_with_ends(terms, self.shape, 0)
+        unit = np.zeros(self.shape)
+        row = self._ended.middle_row(ended[0])
+        unit[row, 0] = 1.0
+        ahead = operator.apply(unit)[row, -1]
+        behind = operator.apply(unit[:, ::-1])[row, 0]
+        return float(min(ahead, behind))
+
+    def _sum_with_ends(
+        self,
+        terms: Sequence[tuple[SurfaceResponse, MovingCompliance, float]],
+        shape: tuple[int, int],
+        start: int,
+        *,
+        single: bool = False,
+    ) -> WeightedOperators:
+        """Weighted sum of terms, of which a half-space ends, over a block from a row on."""
+        operators: list[Any] = []
+        weights = []
+        for response, moving, factor in terms:
+            for part, weight in parts_of(response):
+                if isinstance(part, EndedResponse):
+                    operators.append(
+                        self._ended.operator(part, shape, start, single=single, moving=moving)
+                    )
+                else:
+                    table = self._table_of_term(part, moving)
+                    operators.append(self._convolved(table, shape, single=single))
+                weights.append(factor * weight)
+        return WeightedOperators(operators, weights)
 
     def _filter_operator(
         self,
@@ -213,6 +299,11 @@ class MovingDomain(ContactDomain):
             periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             transforms=self._transforms,
         )
+
+
+def _rates_of(moving: MovingCompliance) -> MovingCompliance:
+    """Delayed part of a compliance with its modes over their lengths, Ji/li."""
+    return replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
 
 
 def _coefficient_on(grid: Grid, axis: int, response: SurfaceResponse) -> Coefficient:

@@ -1,10 +1,11 @@
 from . import smooth_kernel, strip_basis
-from .end_correction import EndCorrection, end_basis, ends_error
+from .end_correction import EndCorrection, MovingEndCorrection, end_basis, ends_error
 from .periodic_influence import periodic_influence_coefficient
 from .strip_influence import strip_coefficient
 
 __all__ = [
     "EndCorrection",
+    "MovingEndCorrection",
     "end_basis",
     "ends_error",
     "periodic_influence_coefficient",

@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 import scipy  # its special functions are imported at their first use
 
-from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
@@ -29,6 +29,7 @@ from viscontact.mechanics.halfspace.free_end import (
     end_functions,
     pivoted_cholesky,
 )
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance
 
 #: Gauss nodes in each panel of wave numbers, which end at powers of two; the first panel begins at
 #: this part of the inverse of the block's extent.
@@ -61,6 +62,25 @@ class EndBasis:
         weights = np.column_stack([before, np.diff(sines, axis=0)])
         return np.tensordot(weights / np.pi, self.products, axes=1)
 
+    def moving_coefficients(
+        self, cells: int, edge: float, compliance: MovingCompliance
+    ) -> Floats:
+        """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
+        weights = self._moving_weights(cells, edge, compliance, 0.0)
+        return np.asarray(np.tensordot(weights, self.products, axes=1))
+
+    def _moving_weights(
+        self, cells: int, edge: float, compliance: MovingCompliance, less: float
+    ) -> Floats:
+        """Weights of means at signed offsets, with the compliance of each wave but for a part."""
+        edges = (np.arange(2 * cells, dtype=np.float64) - cells + 0.5) * edge
+        waves = panel_nodes(self.borders, NODES)[0]
+        factors = compliance.at_wave_number(waves) - less
+        means = np.diff(oscillation_weights(self.borders, NODES, edges), axis=0)
+        before = complex(compliance.at_wave_number(self.borders[:1] / np.e)[0]) - less
+        whole = np.full(2 * cells - 1, self.borders[0] * edge * before.real)
+        return np.column_stack([whole, (means * (factors / (1j * waves))).real]) / np.pi
+
     def turned(self) -> EndBasis:
         """The same with its rows in the opposite order."""
         return replace(self, basis=self.basis[::-1])
@@ -72,11 +92,16 @@ def ends_error(poisson_ratio: float) -> float:
     return functions.asymmetry + functions.neglected + NEGLECTED
 
 
-def end_basis(poisson_ratio: float, rows: range, cell_size: tuple[float, float]) -> EndBasis:
-    """Low-rank form of G of a free end, for rows of cells counted from it."""
+def end_basis(
+    poisson_ratio: float, rows: range, cell_size: tuple[float, float], longest: float = 0.0
+) -> EndBasis:
+    """Low-rank form of G of a free end, for rows of cells counted from it.
+
+    `longest` is a length on which the compliance of waves varies, under a moving load [m].
+    """
     functions = end_functions(poisson_ratio)
     edge = cell_size[0]
-    lowest, highest = FIRST_WAVE / (edge * rows.stop), 2 * HIGHEST / edge
+    lowest, highest = FIRST_WAVE / max(edge * rows.stop, longest), 2 * HIGHEST / edge
     borders = lowest * 2.0 ** np.arange(np.ceil(np.log2(highest / lowest)) + 1)
     waves, weights = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at lowest/e.
@@ -139,3 +164,36 @@ class EndCorrection:
         found = scipy.fft.irfft(moved.T, self._length, axis=1)
         start = columns if self._mirrored else 0
         return np.asarray(self._basis @ found[:, start : start + columns])
+
+
+class MovingEndCorrection:
+    """Displacement beyond the mirrored half-space under a load that moves along y, on a block."""
+
+    def __init__(
+        self,
+        near: EndBasis,
+        rows: slice,
+        columns: int,
+        edge: float,
+        compliance: MovingCompliance,
+        *,
+        single: bool = False,
+    ) -> None:
+        """Take some rows of the basis and a number of columns of an edge along y [m]."""
+        number = np.float32 if single else np.float64
+        self._basis = np.ascontiguousarray(near.basis[rows], number)
+        self._length = fast_length(2 * columns - 1)
+        table = near.moving_coefficients(columns, edge, compliance)
+        kernel = np.zeros((self._length, *table.shape[1:]))
+        kernel[:columns] = table[columns - 1 :]
+        kernel[self._length - columns + 1 :] = table[: columns - 1]
+        symbol: Complexes = scipy.fft.rfft(kernel, axis=0)
+        self._symbol = symbol.astype(np.result_type(number, np.complex64))
+
+    def apply(self, pressure: Numbers) -> Numbers:
+        """Displacement [m] times the scale of the compliance, under a pressure [Pa]."""
+        parts = self._basis.T @ pressure.astype(self._basis.dtype, copy=False)
+        waves = scipy.fft.rfft(parts, self._length, axis=1).T
+        moved = (self._symbol @ waves[..., None])[..., 0]
+        found = scipy.fft.irfft(moved.T, self._length, axis=1)
+        return np.asarray(self._basis @ found[:, : parts.shape[1]])

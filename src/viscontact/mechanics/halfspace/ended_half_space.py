@@ -14,6 +14,7 @@ from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.convolution import Convolution
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     HalfSpaceResponse,
@@ -22,7 +23,11 @@ from viscontact.mechanics.halfspace.surface_response import (
 )
 
 if TYPE_CHECKING:
-    from viscontact.mechanics.halfspace.end_correction import EndBasis
+    from viscontact.mechanics.halfspace.end_correction import (
+        EndBasis,
+        EndCorrection,
+        MovingEndCorrection,
+    )
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,8 @@ class EndedRows:
     coefficients: Floats  # [m], of the period of two lengths, or empty for one plane
     bases: tuple[EndBasis, ...]  # of the free ends, over the rows within the body
     first: int  # first row of the domain within the body
+    #: Under a load that moves along y; coefficients are at signed offsets then, for one plane, too.
+    moving: MovingCompliance | None = None
 
 
 def ended_rows(
@@ -62,19 +69,47 @@ def ended_rows(
     shape: tuple[int, int],
     cell_size: tuple[float, float],
     borders: tuple[int | None, int | None],
+    moving: MovingCompliance | None = None,
 ) -> EndedRows:
     """Rows of a domain of a shape that has all columns, with planes at borders of its rows."""
     before, after = borders
     begin = max(before or 0, 0)
     end = shape[0] if after is None else min(after, shape[0])
+    width = shape[1] * cell_size[1]
+    longest = 0.0 if moving is None else float(moving.lengths.max(initial=0.0))
+    shared = (cell_size, width, longest)
+    bases = _bases_of_ends(response, range(begin, end), borders, *shared)
+    if moving is not None:
+        count = end if after is None else after - (before or 0)
+        table = _moving_table((count, shape[1]), cell_size, moving, periodic=None not in borders)
+        return EndedRows(borders, table, bases, begin, moving)
     table = np.empty((0, 0))
     if before is not None and after is not None:
         # With the datum of a grid that is periodic.
-        period, datum = 2 * (after - before), shape[1] * cell_size[1]
-        table = periodic_layered_table((period, shape[1]), cell_size, HALF_SPACE, datum)
-    width = shape[1] * cell_size[1]
-    bases = _bases_of_ends(response, range(begin, end), borders, cell_size, width)
+        period = 2 * (after - before)
+        table = periodic_layered_table((period, shape[1]), cell_size, HALF_SPACE, width)
     return EndedRows(borders, table, bases, begin)
+
+
+def _moving_table(
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    moving: MovingCompliance,
+    *,
+    periodic: bool,
+) -> Floats:
+    """Coefficients of a load that moves along y, for rows from a plane on, or between two."""
+    if not periodic:
+        return moving_influence_table((2 * shape[0], shape[1]), cell_size, moving, 1)
+    period, datum = 2 * shape[0] * cell_size[0], shape[1] * cell_size[1]
+
+    def with_images(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
+        near = np.minimum(across, period - across)
+        return halfspace.periodic_influence_coefficient(near, along, cell[::-1], period, datum)
+
+    half = moving_influence_table((shape[0] + 1, shape[1]), cell_size, moving, 1, with_images)
+    offsets = np.arange(2 * shape[0])
+    return np.asarray(half[np.minimum(offsets, 2 * shape[0] - offsets)])
 
 
 def _bases_of_ends(
@@ -83,6 +118,7 @@ def _bases_of_ends(
     borders: tuple[int | None, int | None],
     cell_size: tuple[float, float],
     width: float,
+    longest: float,
 ) -> tuple[EndBasis, ...]:
     """Low-rank forms of what the free ends add on rows of a domain."""
     before, after = borders
@@ -93,17 +129,16 @@ def _bases_of_ends(
         strip = halfspace.strip_basis.StripRows(after - before, free)
         inside = range(rows.start - before, rows.stop - before)
         shared = (ratio, strip, inside, cell_size, width)
-        return tuple(halfspace.strip_basis.strip_basis(*shared, odd=odd) for odd in strip.kinds)
-    if before is not None:
-        return (
-            halfspace.end_basis(ratio, range(rows.start - before, rows.stop - before), cell_size),
+        return tuple(
+            halfspace.strip_basis.strip_basis(*shared, odd=odd, longest=longest)
+            for odd in strip.kinds
         )
+    if before is not None:
+        inside = range(rows.start - before, rows.stop - before)
+        return (halfspace.end_basis(ratio, inside, cell_size, longest),)
     assert after is not None  # at least one plane is given
-    return (
-        halfspace.end_basis(
-            ratio, range(after - rows.stop, after - rows.start), cell_size
-        ).turned(),
-    )
+    inside = range(after - rows.stop, after - rows.start)
+    return (halfspace.end_basis(ratio, inside, cell_size, longest).turned(),)
 
 
 class Operator(Protocol):
@@ -158,15 +193,20 @@ class EndedConvolution:
         count, start = _rows_from_plane(ended.borders, begin, end)
         self._rows = slice(start, start + end - begin)
         ny = self.shape[1] * (1 + mirrored)
-        periodic = bool(ended.coefficients.size)
-        coefficients = (
-            ended.coefficients[:, :ny] if periodic else influence_table((2 * count, ny), cell_size)
-        )
+        periodic, moving = None not in ended.borders, ended.moving
+        if moving is not None:
+            middle = ended.coefficients.shape[1] // 2
+            coefficients = ended.coefficients[: 2 * count, middle - ny + 1 : middle + ny]
+        elif periodic:
+            coefficients = ended.coefficients[:, :ny]
+        else:
+            coefficients = influence_table((2 * count, ny), cell_size)
         self._mirrored = Convolution(
             coefficients,
             mirrored=(True, mirrored),
             periodic=(periodic, False),
             single=single,
+            signed=None if moving is None else 1,
             **options,
         )
         self._padded = (
@@ -175,10 +215,17 @@ class EndedConvolution:
             else np.zeros((count, self.shape[1]), np.float32 if single else np.float64)
         )
         own = slice(begin - ended.first, end - ended.first)
-        self._corrections = [
-            halfspace.EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
-            for basis in ended.bases
-        ]
+        self._corrections: list[EndCorrection | MovingEndCorrection]
+        if moving is None:
+            self._corrections = [
+                halfspace.EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
+                for basis in ended.bases
+            ]
+        else:
+            self._corrections = [
+                halfspace.MovingEndCorrection(basis, own, ny, cell_size[1], moving, single=single)
+                for basis in ended.bases
+            ]
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
@@ -203,8 +250,15 @@ class EndedConvolution:
 class WeightedOperators:
     """Weighted sum of operators on the same block."""
 
-    def __init__(self, operators: Sequence[Operator], weights: Sequence[float]) -> None:
-        self._operators, self._weights = operators, weights
+    def __init__(
+        self, operators: Sequence[Operator], weights: Sequence[float], uniform: float = 0.0
+    ) -> None:
+        """Take operators and weights, and a displacement by the sum of all pressures [m]."""
+        self._operators, self._weights, self._uniform = operators, weights, uniform
+
+    def less(self, uniform: float) -> WeightedOperators:
+        """The sum less a displacement by the sum of all pressures [m]."""
+        return WeightedOperators(self._operators, self._weights, self._uniform - uniform)
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
@@ -214,4 +268,6 @@ class WeightedOperators:
             total *= first[1]
         for operator, weight in others:
             total += weight * operator.apply(pressure)
+        if self._uniform:
+            total += self._uniform * pressure.sum()
         return total

@@ -19,6 +19,7 @@ from viscontact.mechanics.halfspace.end_correction import FIRST_WAVE, NODES, End
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.free_end import HIGHEST, end_functions, pivoted_cholesky
 from viscontact.mechanics.halfspace.log_panels import LogPanels
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance
 from viscontact.mechanics.halfspace.strip import HIGHEST_WAVE, strip_table
 
 #: Largest entry that a basis may leave out, relative to the largest one.
@@ -61,13 +62,29 @@ class StripBasis(EndBasis):
 
     def coefficients(self, cells: int, edge: float) -> Floats:
         """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
+        regular = super().coefficients(cells, edge)
+        return np.asarray(regular - np.multiply.outer(self._limit_means(cells, edge), self.limit))
+
+    def _limit_means(self, cells: int, edge: float) -> Floats:
+        """Integrals of ln((y² + W²)/D²)/2π over cells at offsets of 0, 1, ... [m]."""
         edges = (np.arange(cells + 1, dtype=np.float64) - 0.5) * edge
         along, half = edges / self.half_length, self.half_length
         # ∫ ln((y² + W²)/D²) dy / W over y/W.
         integral = along * (np.log((edges**2 + half**2) / self.datum**2) - 2)
-        means = half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along))
-        regular = super().coefficients(cells, edge)
-        return np.asarray(regular - np.multiply.outer(means, self.limit))
+        return np.asarray(half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along)))
+
+    def moving_coefficients(
+        self, cells: int, edge: float, compliance: MovingCompliance
+    ) -> Floats:
+        """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
+        waves = panel_nodes(self.borders, NODES)[0]
+        # The delay of a wave falls with its number, so that its part has a limit of its own.
+        part = np.append(0.0, np.exp(-waves * self.half_length) / waves)
+        delayed = self._moving_weights(cells, edge, compliance, compliance.relaxed) @ part
+        means = self._limit_means(cells, edge)
+        limit = delayed - compliance.relaxed * np.append(means[:0:-1], means)
+        regular = super().moving_coefficients(cells, edge, compliance)
+        return np.asarray(regular + np.multiply.outer(limit, self.limit))
 
 
 def strip_error(poisson_ratio: float, *, odd: bool) -> float:
@@ -83,17 +100,19 @@ def strip_basis(
     width: float,
     *,
     odd: bool,
+    longest: float = 0.0,
 ) -> StripBasis:
     """Low-rank form of what free faces add to even or odd pressures, for rows of a strip.
 
-    `width` is the grid's size along y, at which the limit of long waves displaces nothing [m].
+    `width` is the grid's size along y, at which the limit of long waves displaces nothing [m],
+    `longest` a length on which the compliance of waves varies, under a moving load [m].
     """
     table = strip_table(poisson_ratio, odd=odd)
     half_length = strip.half_length * cell_size[0]
     distance, signs = strip.from_face(rows)
     signs = signs[:, None] if odd else np.ones((len(rows), 1))
     means = signs * _cell_means(table.panels, distance, strip.half_length)
-    borders = _borders(half_length, width, cell_size[0])
+    borders = _borders(half_length, max(width, longest), cell_size[0])
     waves, measures = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at a wave number.
     waves, measures = np.append(borders[0] / np.e, waves), np.append(borders[0], measures)

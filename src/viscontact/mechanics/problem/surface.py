@@ -134,7 +134,7 @@ def surface_of(
         ends or repeat(None),
         strict=False,
     ):
-        for new in terms_of(body, span) if ended is None else [_ended_term(ended, body)]:
+        for new in terms_of(body, span) if ended is None else [ended_term(ended, body)]:
             clocked = SurfaceTerm(on_clock(new.compliance, clock), new.response)
             terms = _with_term(terms, clocked)
         if isinstance(body, Layered) and as_elastic(body) is None:
@@ -214,7 +214,7 @@ def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTe
     return [SurfaceTerm(*pair) for pair in zip(found.compliances, found.responses, strict=True)]
 
 
-def _ended_term(body: Body, material: Material | Layered) -> SurfaceTerm:
+def ended_term(body: Body, material: Material | Layered) -> SurfaceTerm:
     """Term of a body that ends, with its material at the temperature of the run."""
     assert isinstance(material, Material)
     assert material.poisson_ratio is not None  # refused otherwise

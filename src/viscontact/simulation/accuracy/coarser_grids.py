@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,6 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import trace_outline
-from viscontact.simulation.checks.ends import ON_BORDER
 from viscontact.simulation.transient.setup import RunSetup
 
 #: Largest relative change of a coarser grid's cells that lets the body end alike within a cell.
@@ -34,19 +32,6 @@ def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid
         shape.append(coarse + ((coarse - count) % 2 == parity))
         size.append(shape[axis] * by * grid.cell_size[axis])
     return replace(grid, shape=(shape[0], shape[1]), size=(size[0], size[1]))
-
-
-def with_borders_at(grid: Grid, planes: Sequence[float]) -> Grid:
-    """Grid whose cells end at planes across x, the first and the last of several [m]."""
-    first, last = min(planes), max(planes)
-    (lx, ly), (x, y), cell = grid.size, grid.centre, grid.cell_size[0]
-    if last > first:
-        fitted = (last - first) / max(1, round((last - first) / cell))
-        lx, cell = lx * fitted / cell, fitted
-    place = (first - x + lx / 2) / cell
-    if abs(place - round(place)) * cell > ON_BORDER * cell:
-        x += (place - round(place)) * cell
-    return replace(grid, size=(lx, ly), centre=(x, y))
 
 
 def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float, float]:

@@ -19,11 +19,7 @@ from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps, step_ends
 from viscontact.simulation import accuracy, transient
-from viscontact.simulation.accuracy.coarser_grids import (
-    aligned_spacing,
-    coarser_grid,
-    with_borders_at,
-)
+from viscontact.simulation.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.simulation.accuracy.coarser_ratios import (
     FEW_STEPS,
     ratios_of_cells,
@@ -41,7 +37,7 @@ from viscontact.simulation.accuracy.moving_levels import (
     fewer_moving_times,
     whole_cell_ratios,
 )
-from viscontact.simulation.checks.ends import planes_of
+from viscontact.simulation.checks.ends import planes_of, with_borders_at
 from viscontact.simulation.transient.setup import RunSetup, plan_history
 
 if TYPE_CHECKING:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint
+from viscontact.bodies.loads.motion import Motion
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
@@ -32,10 +35,10 @@ NO_TILT = (
 def check_ends(problem: Problem) -> None:
     """Refuse what bodies that end cannot be computed with, before a grid is known."""
     for name in problem.ended_bodies:
-        if not problem.motion.stands:
+        if _moves_along_x(problem.motion):
             raise ValueError(
-                f"{name}.ends: a body that ends is not available in motion; let the contact "
-                "rest, or give the material without ends"
+                f"{name}.ends: the motion is along x, across the ends, over which nothing can "
+                "move; let the contact move along y, or give the material without ends"
             )
         for other in ("friction", "adhesion"):
             if getattr(problem, other) is not None:
@@ -51,6 +54,13 @@ def check_ends(problem: Problem) -> None:
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
         )
+
+
+def _moves_along_x(motion: Motion) -> bool:
+    """True of a motion along x or at an angle."""
+    if isinstance(motion, SteadyMotion):
+        return motion.along == "x"
+    return motion.moves[0]
 
 
 def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
@@ -110,6 +120,24 @@ def is_border(grid: Grid, plane: float) -> bool:
     return abs(place - round(place)) < ON_BORDER
 
 
+def with_borders_at(grid: Grid, planes: Sequence[float]) -> Grid:
+    """Grid whose cells end at planes across x, the first and the last of several [m]."""
+    first, last = min(planes), max(planes)
+    (lx, ly), (x, y), cell = grid.size, grid.centre, grid.cell_size[0]
+    if last > first:
+        fitted = (last - first) / max(1, round((last - first) / cell))
+        lx, cell = lx * fitted / cell, fitted
+    place = (first - x + lx / 2) / cell
+    if abs(place - round(place)) * cell > ON_BORDER * cell:
+        x += (place - round(place)) * cell
+    return replace(grid, size=(lx, ly), centre=(x, y))
+
+
+def planes_of_each(problem: Problem) -> list[tuple[float | None, float | None]]:
+    """Positions x of the ends of each body at -x and at +x; None where it goes on [m]."""
+    return [body.planes for body in problem.ended_bodies.values()]
+
+
 def planes_of(problem: Problem) -> tuple[float, ...]:
     """Positions x of the ends of all bodies [m]."""
     bodies = problem.ended_bodies.values()
@@ -144,6 +172,8 @@ def datum_of_ends_warnings(
     """
     if not problem.ends_twice:
         return {}
-    *others, last = undefined
-    words = f"{NO_DATUM}: {', '.join(others)} and {last} are not defined (NaN)"
+    words = f"{NO_DATUM}: {undefined[0]} is not defined (NaN)"
+    if len(undefined) > 1:
+        *others, last = undefined
+        words = f"{NO_DATUM}: {', '.join(others)} and {last} are not defined (NaN)"
     return {"datum": words if tilts else f"{words}; {NO_TILT}, so that tilt_x is not, either"}

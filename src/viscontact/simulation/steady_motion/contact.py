@@ -10,11 +10,13 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.steady_equilibrium import SteadySolution, solve_steady_contact
+from viscontact.simulation.checks.ends import planes_of, planes_of_each, with_borders_at
 from viscontact.simulation.steady_motion.moving_law import MovingLaws
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
@@ -89,8 +91,7 @@ class SteadySolver:
         """Solve at a speed [m/s], from a contact on other cells at a similar speed if given."""
         open_gap = gap_on(self.problem, grid)
         axis = self.problem.axis
-        load = self.problem.contact.load
-        even = mirrored_axes(grid, open_gap, (load.is_even(0), load.is_even(1)))[1 - axis]
+        even = self.is_even_across(grid, open_gap)
         extent = max(grid.size_about_origin)
         domain = MovingDomain(
             grid, self.laws.at(speed, extent), axis, mirrored=even, transforms=self.transforms
@@ -106,6 +107,13 @@ class SteadySolver:
         solution = solve_steady_contact(posed, domain, guess, tolerance=tolerance)
         return SteadyContact(speed, domain, solution)
 
+    def is_even_across(self, grid: Grid, open_gap: Floats) -> bool:
+        """True if gap, load and ends are even across the motion."""
+        contact = self.problem.contact
+        alike = all(body.is_even for body in contact.ended_bodies.values())
+        loads = alike and contact.load.is_even(0), contact.load.is_even(1)
+        return mirrored_axes(grid, open_gap, loads)[1 - self.problem.axis]
+
     def coarser(self, speed: float, grid: Grid, tolerance: float) -> SteadyContact | None:
         """Solve on half the cells along each axis; None where there are few.
 
@@ -116,7 +124,10 @@ class SteadySolver:
         if any(cells < FEWEST_TO_HALVE and not keeps for cells, keeps in pairs):
             return None
         nx, ny = (cells if keeps else (cells + 1) // 2 for cells, keeps in pairs)
-        return self.solve(speed, replace(grid, shape=(nx, ny)), tolerance)
+        coarse = replace(grid, shape=(nx, ny))
+        if planes := planes_of(self.problem.contact):
+            coarse = with_borders_at(coarse, planes)
+        return self.solve(speed, coarse, tolerance)
 
     def _is_uniform(self, grid: Grid, axis: int) -> bool:
         """True for a periodic axis along which the body is a cylinder."""
@@ -128,7 +139,8 @@ class SteadySolver:
 
 def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:
     """Gap of the indenter on a grid [m]."""
-    return problem.contact.indenter.gap(grid.x[:, None], grid.y[None, :])
+    indenter, planes = problem.contact.indenter, planes_of_each(problem.contact)
+    return cut_at(indenter, planes).gap(grid.x[:, None], grid.y[None, :])
 
 
 def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:

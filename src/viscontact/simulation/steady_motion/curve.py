@@ -17,6 +17,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
+from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
 from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.half_space_theory import (
     SINGULAR_KINDS,
@@ -150,7 +151,7 @@ class SteadyCurve:
         if coarse is None or not (coarse.solution.converged and coarse.in_contact.any()):
             return {**unknown_bars(problem), **unknown_traction_bars(traction)}
         other = self._measure(coarse)
-        bars: dict[str, float | Floats] = {**error_bars(problem, fine, other, singular=singular)}
+        bars: dict[str, float | Floats] = {**error_bars(problem, fine, other, singular=singular, ends=self._run.ends_error)}
         if traction is None:
             return bars
         try:
@@ -167,6 +168,8 @@ class SteadyCurve:
         sinks = self._run.solver.laws.sinks and not all(contact.grid.periodic)
         datum = problem.contact.has_datum(contact.grid) and not sinks
         state = state_of(problem, contact, rim, against, datum=datum)
+        if not self._run.tilts_from_datum:
+            state = replace(state, tilt_x=math.nan)
         return Measured(state, rim, against)
 
     def _with_traction(self, found: Measured, contact: SteadyContact) -> Measured:
@@ -223,6 +226,7 @@ def run_warnings(run: SteadySetup) -> dict[str, str]:
     found |= origin_warnings(problem.contact.materials)
     found |= temperature_warnings(problem.contact.materials) | shift_warnings(problem.contact)
     found |= datum_warnings(run.grids[0], ("approach",), supported=surface.is_supported)
+    found |= datum_of_ends_warnings(problem.contact, ("approach",), tilts=run.tilts_from_datum)
     found |= coupling_warnings(problem.contact)
     found |= layer_warnings(problem.contact.thinnest_layer, run.grids[0].cell_size)
     if run.tolerance_reached is not None:
@@ -263,7 +267,9 @@ def geometry_of(
         open_gap,
         grid,
         thickness=body.thickness,
-        indenter_gives=body.indenter_material is not None,
+        indenter_gives=body.indenter_material is not None
+        and "indenter_material" not in body.ended_bodies,
+        planes=planes_of(body),
         covers=covers_of(body.bodies, passed),
         is_supported=body.surface.is_supported,
         predicted=predicted,

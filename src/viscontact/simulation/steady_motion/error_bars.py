@@ -77,12 +77,18 @@ class Measured:
 
 
 def error_bars(
-    problem: SteadyProblem, fine: Measured, coarse: Measured, *, singular: bool = False
+    problem: SteadyProblem,
+    fine: Measured,
+    coarse: Measured,
+    *,
+    singular: bool = False,
+    ends: float = 0.0,
 ) -> dict[str, float]:
     """Half widths of the error bars of a contact, from one in cells twice as large."""
     # The difference of both grids counts, and at least an error by the rim's place in its cells and
     # by the solver; of a resistance by the slope also the difference of both forms.
-    state, least = fine.state, _least_bars(problem, fine)
+    # `ends` is what the operator of free ends may miss [-].
+    state, least = fine.state, _least_bars(problem, fine, ends)
     bars = {}
     at_once, unresolved = problem.contact.compliance.instant > 0, _unresolved(problem, fine)
     for name in WITH_ERROR:
@@ -117,14 +123,14 @@ def error_bars(
     }
 
 
-def _least_bars(problem: SteadyProblem, fine: Measured) -> dict[str, float]:
+def _least_bars(problem: SteadyProblem, fine: Measured, ends: float) -> dict[str, float]:
     """Errors by the rim's place in its cells and by the solver, however well two grids agree."""
     state, rim = fine.state, fine.rim
     cell, extents = rim.grid.cell_size, (rim.length, rim.width)
     free = [axis for axis in (0, 1) if not rim.grid.periodic[axis]] or [0, 1]
     square = max(min(extents[axis] / cell[axis] for axis in free), 1.0) ** 2
     solver, splitting = problem.contact.solver_error, problem.contact.surface.splitting_error
-    relative = solver + splitting
+    relative = solver + splitting + ends
     least = {
         name: (LEAST_ERRORS.get(name, 0.0) / square + relative) * abs(float(getattr(state, name)))
         for name in WITH_ERROR

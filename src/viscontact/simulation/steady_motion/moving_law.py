@@ -17,6 +17,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.clock import TIME
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
@@ -26,7 +27,7 @@ from viscontact.mechanics.halfspace.moving_shear import MovingShear
 from viscontact.mechanics.halfspace.moving_surface import MovingSurface
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.mechanics.problem.shear_terms import shear_terms
-from viscontact.mechanics.problem.surface import ROUNDING, SurfaceTerm, terms_of
+from viscontact.mechanics.problem.surface import ROUNDING, SurfaceTerm, ended_term, terms_of
 from viscontact.mechanics.time_integration.prony_approximation import as_exponentials
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
@@ -118,9 +119,9 @@ class MovingLaws:
 def moving_laws(problem: SteadyProblem, extents: tuple[float, float]) -> MovingLaws:
     """Laws of the bodies, for lengths of the contact at the fastest and slowest speed [m]."""
     first, last = _times(problem, extents)
-    material, *mates = problem.contact.bodies
-    found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(material)]
-    for term in (term for mate in mates for term in _terms(mate)):
+    own, *mates = zip(problem.contact.bodies, problem.contact.ends, strict=True)
+    found = [_law(term, *_series(term.compliance, first, last)) for term in _terms(*own)]
+    for term in (term for mate in mates for term in _terms(*mate)):
         new = _law_of_mate(problem, term, first, last)
         alike = [index for index, law in enumerate(found) if law.response == new.response]
         if alike:
@@ -199,8 +200,10 @@ def _of_long_waves(law: ShearLaw, direct: MovingCompliance) -> MovingCompliance:
     return replace(direct, drift=share * direct.drift)
 
 
-def _terms(body: Material | Layered) -> list[SurfaceTerm]:
+def _terms(body: Material | Layered, ended: Body | None) -> list[SurfaceTerm]:
     """Terms of a body. Those of a layered solid do not flow, however its response is separated."""
+    if ended is not None:
+        return [ended_term(ended, body)]
     if flowing(body):
         return terms_of(body)
     return [replace(term, compliance=_without_flow(term.compliance)) for term in terms_of(body)]

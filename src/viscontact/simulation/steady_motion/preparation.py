@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,13 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.mechanics.contact.domain import mirrored_axes
-from viscontact.simulation.checks.ends import check_ends
+from viscontact.simulation.checks.ends import (
+    check_ends,
+    check_grid_of_ends,
+    check_tilt_of_ends,
+    error_of_ends,
+    tilts_from_datum,
+)
 from viscontact.simulation.checks.periodicity import check_endless, check_period, refuse_approach
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
@@ -81,6 +88,21 @@ class SteadySetup:
             return None
         return TractionSolver(self.problem, self.shear, self.solver.transforms)
 
+    @cached_property
+    def tilts_from_datum(self) -> bool:
+        """True if the tilt along x has a datum: not if a body that bends has two free ends."""
+        open_gap = gap_on(self.problem, self.grids[0])
+        return tilts_from_datum(self.problem.contact, self.grids[0], open_gap)
+
+    @cached_property
+    def ends_error(self) -> float:
+        """Part of the displacement by free ends that their operator may miss; 0 without [-]."""
+        contact, grid = self.problem.contact, self.grids[0]
+        even = bool(contact.ended_bodies) and self.solver.is_even_across(
+            grid, gap_on(self.problem, grid)
+        )
+        return error_of_ends(contact, even=even)
+
     @property
     def grid(self) -> Grid:
         """Smallest grid that holds the grids of all speeds."""
@@ -102,13 +124,15 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     check_endless(contact.indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):
         supported = contact.surface.is_supported
+        check_grid_of_ends(contact, given)
         open_gap = gap_on(problem, given)
+        check_tilt_of_ends(contact, [problem.point], given, open_gap)
         check_period(contact.indenter, open_gap, given, contact.load, supported=supported)
     _refuse_apart(problem)
     if isinstance(given, Grid):
         extents = CELLS_OF_GIVEN * given.cell_size[axis], given.size[axis]
         laws, shear = moving_laws(problem, extents), _shear_laws(problem, extents)
-        _refuse_flow(laws, given)
+        _refuse_flow(laws, given, twice=contact.ends_twice)
         _refuse_long_grid(laws, given, axis)
         solver = SteadySolver(problem, laws, transforms)
         return SteadySetup(solver, (given,) * len(problem.speeds), threads, library, shear)
@@ -211,8 +235,14 @@ def _centred(problem: SteadyProblem, reach: Floats) -> tuple[bool, bool]:
     return across == 0 and even, across == 1 and even
 
 
-def _refuse_flow(laws: MovingLaws, grid: Grid) -> None:
+def _refuse_flow(laws: MovingLaws, grid: Grid, *, twice: bool) -> None:
     """Refuse a fluid under a line contact, which drags ever more of it along (Stokes' paradox)."""
+    if laws.sinks and twice:
+        raise ValueError(
+            "material: the material flows, and the resistance of a fluid between two ends grows "
+            "without limit with the distance travelled, so that there is no steady state; use a "
+            "solid, such as a Zener law, or one end at most"
+        )
     if laws.sinks and not grid.has_datum:
         raise ValueError(
             "material: the material flows, and on a grid that is periodic across the motion the "

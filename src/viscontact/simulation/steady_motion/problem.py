@@ -8,6 +8,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
@@ -40,9 +41,11 @@ class SteadyProblem:
         return "xy".index(self.motion.along)
 
     def body_on(self, grid: Grid) -> Indenter:
-        """The body, on a grid that repeats itself with its next periods."""
+        """The body, on a grid that repeats itself with its next periods; cut off at ends."""
         body = self.contact.indenter
-        return PeriodicBody(body, grid) if any(grid.periodic) else body
+        if any(grid.periodic):
+            return PeriodicBody(body, grid)
+        return cut_at(body, [each.planes for each in self.contact.ended_bodies.values()])
 
     @property
     def kept(self) -> Floats:
@@ -128,6 +131,12 @@ def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
             "rolling: the indenter's material is viscoelastic, so that rolling and sliding "
             "differ; give rolling=True if it rolls (its material flows through the contact), "
             "rolling=False if it slides"
+        )
+    if rolling and "indenter_material" in contact.ended_bodies:
+        raise ValueError(
+            "indenter_material.ends: the material of a body that rolls returns to the contact, "
+            "which is not available for one that creeps and ends; give it without ends, or "
+            "rolling=False, or make it elastic"
         )
     if rolling and not contact.indenter.curvatures[axis] > 0:
         raise ValueError(

@@ -84,6 +84,7 @@ def steady_attributes(run: SteadySetup, grid: Grid) -> dict[str, Any]:
         "memory_error": run.solver.laws.error,
         "splitting_error": problem.contact.surface.splitting_error,
         "inversion_error": problem.contact.compliance.inversion_error,
+        **({"ends_error": run.ends_error} if problem.contact.ended_bodies else {}),
     }
 
 
