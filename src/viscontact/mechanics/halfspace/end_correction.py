@@ -62,9 +62,7 @@ class EndBasis:
         weights = np.column_stack([before, np.diff(sines, axis=0)])
         return np.tensordot(weights / np.pi, self.products, axes=1)
 
-    def moving_coefficients(
-        self, cells: int, edge: float, compliance: MovingCompliance
-    ) -> Floats:
+    def moving_coefficients(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
         """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
         weights = self._moving_weights(cells, edge, compliance, 0.0)
         return np.asarray(np.tensordot(weights, self.products, axes=1))

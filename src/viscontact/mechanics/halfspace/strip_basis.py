@@ -73,9 +73,7 @@ class StripBasis(EndBasis):
         integral = along * (np.log((edges**2 + half**2) / self.datum**2) - 2)
         return np.asarray(half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along)))
 
-    def moving_coefficients(
-        self, cells: int, edge: float, compliance: MovingCompliance
-    ) -> Floats:
+    def moving_coefficients(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
         """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
         waves = panel_nodes(self.borders, NODES)[0]
         # The delay of a wave falls with its number, so that its part has a limit of its own.

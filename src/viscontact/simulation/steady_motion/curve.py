@@ -151,7 +151,9 @@ class SteadyCurve:
         if coarse is None or not (coarse.solution.converged and coarse.in_contact.any()):
             return {**unknown_bars(problem), **unknown_traction_bars(traction)}
         other = self._measure(coarse)
-        bars: dict[str, float | Floats] = {**error_bars(problem, fine, other, singular=singular, ends=self._run.ends_error)}
+        bars: dict[str, float | Floats] = {
+            **error_bars(problem, fine, other, singular=singular, ends=self._run.ends_error)
+        }
         if traction is None:
             return bars
         try:
