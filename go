@@ -3,6 +3,7 @@
 
 The first call creates `.venv` from `requirements.lock`; for `demo` and `viscontact` from the part
 of it that computes and draws, `requirements-demo.lock`. Every file is pinned there by its hash.
+Where there is a C++ compiler, the core is compiled into the package; elsewhere runs use NumPy.
 It uses uv if that is on the path, otherwise Python's venv and pip. Later calls need no network.
 This script uses the standard library only, so Python and git are sufficient.
 """
@@ -24,6 +25,8 @@ DEMO_LOCK = ROOT / "requirements-demo.lock"  # the part of it that computes and 
 VENV = ROOT / ".venv"
 STAMP = VENV / "go-stamp"  # written last: without it the environment is incomplete
 LOG = VENV / "go-setup.log"
+CORE = ROOT / "src" / "core"  # sources of the compiled core, and the script that compiles it
+CORE_STAMP = VENV / "go-core-stamp"  # what was compiled, or could not be
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 OLDEST = (3, 11)
 AT_ONCE = 16  # packages between two lines about what is left
@@ -49,7 +52,7 @@ def viscontact(args: list[str]) -> int:
 
 
 def setup(args: list[str]) -> int:
-    """Install all that the tasks and the commands of viscontact use, and nothing else."""
+    """Install all that the tasks and the commands of viscontact use, and compile the core."""
     print(f"go: all packages are in {VENV}")
     return 0
 
@@ -138,7 +141,7 @@ def compatibility(args: list[str]) -> int:
 
 
 def lock(args: list[str]) -> int:
-    """Update both locks from pyproject.toml (`--upgrade`: to the newest versions)."""
+    """Update the locks from pyproject.toml (`--upgrade`: to the newest versions)."""
     # Ignore the configuration of this machine: the locks contain public files only.
     for name in [n for n in os.environ if n.startswith(("UV_INDEX", "UV_DEFAULT", "UV_FIND"))]:
         del os.environ[name]
@@ -148,8 +151,13 @@ def lock(args: list[str]) -> int:
     uv = ["-m", "uv", "pip", "compile", "pyproject.toml", *options.split(), *wanted.split()]
     status = run([*uv, "--extra", "all", "--extra", "dev", *written, LOCK.name, *args])
     extras = ["--extra", "plot", "--extra", "fast", "--constraint", LOCK.name]
-    return status or run([*uv, *extras, *written, DEMO_LOCK.name, *args])
+    status = status or run([*uv, *extras, *written, DEMO_LOCK.name, *args])
+    uv.remove("pyproject.toml")  # what builds wheels in CI: the group alone
+    return status or run([*uv, "--constraint", LOCK.name, *written, BUILD_LOCK, *args])
 
+
+#: What builds wheels, for CI.
+BUILD_LOCK = ".ci/build-requirements.txt"
 
 #: Choice of versions by `./go compatibility`, in options of uv.
 VERSIONS = {"lowest": "--resolution lowest-direct", "newest": "--prerelease allow"}
@@ -198,6 +206,9 @@ TASKS = {
 #: Tasks for which the packages of the demo are enough.
 COMPUTING = ("demo", "viscontact")
 
+#: Packages of the locks that are installed only where the compilation of the core lacks them.
+BUILD_TOOLS = ("cmake", "ninja")
+
 
 # --- environment ------------------------------------------------------------------------------
 
@@ -213,7 +224,9 @@ def is_ready(task: str) -> bool:
     if not (PYTHON.exists() and STAMP.exists()):
         return False
     enough = [LOCK, DEMO_LOCK] if task in COMPUTING else [LOCK]
-    return STAMP.read_text() in map(fingerprint, enough)
+    if STAMP.read_text() not in map(fingerprint, enough):
+        return False
+    return task != "setup" or not lacking(PYTHON)  # a compiler may be new here
 
 
 def set_up(lock: Path) -> None:
@@ -224,10 +237,11 @@ def set_up(lock: Path) -> None:
     into = ["--python", str(PYTHON)] if uv else []
     # An environment created by uv has no pip, so it cannot be updated without uv.
     updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
-    packages = locked_packages(lock)
+    packages = [each for each in locked_packages(lock) if is_wanted(each)]
     doing = "bringing .venv up to date" if updating else "setting up .venv, once"
     print(f"go: {doing}: {len(packages)} packages", flush=True)
-    STAMP.unlink(missing_ok=True)
+    for stamp in (STAMP, CORE_STAMP):
+        stamp.unlink(missing_ok=True)
     if not updating:
         if VENV.exists():
             shutil.rmtree(VENV)
@@ -248,6 +262,43 @@ def set_up(lock: Path) -> None:
 def locked_packages(lock: Path) -> list[str]:
     """Return the entries of a lock, each a version with its hashes; those of other systems, too."""
     return re.split(r"^(?=\w)", lock.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+
+
+def is_wanted(package: str) -> bool:
+    """Return whether to install an entry of a lock: a build tool only where one is lacking."""
+    name = re.split(r"[= ]", package, maxsplit=1)[0]
+    return name not in BUILD_TOOLS or name in lacking(Path(sys.executable))
+
+
+def lacking(python: Path) -> list[str]:
+    """Return the build tools that compiling the core needs here, and that are not installed."""
+    asked = [str(python), str(CORE / "compile_core.py"), "--lacks"]
+    return subprocess.run(asked, text=True, capture_output=True).stdout.split()
+
+
+def core_fingerprint() -> str:
+    """Return a hash of the sources of the core."""
+    contents = [path.read_bytes() for path in sorted(CORE.glob("*.*"))]
+    return hashlib.sha256(b"\0".join(contents)).hexdigest()
+
+
+def core_is_ready() -> bool:
+    """Return whether the core was compiled of these sources, or could not be."""
+    return CORE_STAMP.exists() and CORE_STAMP.read_text() == core_fingerprint()
+
+
+def compile_core() -> None:
+    """Compile the core into the package, and say if it cannot be: runs then use NumPy."""
+    if os.environ.get("VISCONTACT_CORE") == "off":
+        return
+    script = str(CORE / "compile_core.py")
+    done = subprocess.run([str(PYTHON), script], env=clean(), text=True, capture_output=True)
+    if done.returncode == 0:
+        print("go: the core is compiled", flush=True)
+    else:
+        said = (done.stdout or done.stderr).strip().splitlines() or ["no reason given"]
+        print(f"go: no compiled core, so runs use NumPy: {said[-1]}", flush=True)
+    CORE_STAMP.write_text(core_fingerprint())
 
 
 def show_left(left: int) -> None:
@@ -318,6 +369,8 @@ def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> in
             )
         if not is_ready(argv[0]):
             set_up(DEMO_LOCK if argv[0] in COMPUTING else LOCK)
+        if argv[0] == "setup" or not core_is_ready():
+            compile_core()
         return TASKS[argv[0]](argv[1:])
     except (TaskError, OSError) as error:
         print(f"go: {error}", file=sys.stderr)

@@ -17,6 +17,7 @@ def doctor() -> None:
 
     from rich.table import Table
 
+    from viscontact.backend.compiled import kernels
     from viscontact.backend.transforms import fastest_transforms
     from viscontact.cli.terminal.console import TextConsole
     from viscontact.runs.machine.cores import usable_cores
@@ -30,6 +31,7 @@ def doctor() -> None:
         ("cores", str(usable_cores())),
         ("free memory", f"{available_memory() / 1e9:.3g} GB"),
         ("Fourier transforms", fastest_transforms()),
+        ("inner loops", kernels()),
     ]
     missing: dict[str, list[str]] = {}
     for package in packages():

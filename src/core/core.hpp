@@ -1,0 +1,20 @@
+// Functions of the core, on plain memory: module.cpp hands arrays to them, without the lock of Python.
+#pragma once
+
+#include <cstddef>
+
+namespace viscontact {
+
+/// Numbers of two axes in memory; steps between neighbours count in numbers, and may be negative.
+template <typename Real>
+struct Field {
+  const Real* first;
+  std::ptrdiff_t rows, columns;
+  std::ptrdiff_t row_step, column_step;
+};
+
+/// Largest absolute value; NaN if one of the numbers is.
+template <typename Real>
+double largest(const Field<Real>& field);
+
+}  // namespace viscontact
