@@ -151,6 +151,7 @@ def lock(args: list[str]) -> int:
     uv = ["-m", "uv", "pip", "compile", "pyproject.toml", *options.split(), *wanted.split()]
     status = run([*uv, "--extra", "all", "--extra", "dev", *written, LOCK.name, *args])
     extras = ["--extra", "plot", "--extra", "fast", "--constraint", LOCK.name]
+    extras += ["--no-emit-package", "tomlkit"]  # for a command of hatchling that no task calls
     status = status or run([*uv, *extras, *written, DEMO_LOCK.name, *args])
     uv.remove("pyproject.toml")  # what builds wheels in CI: the group alone
     return status or run([*uv, "--constraint", LOCK.name, *written, BUILD_LOCK, *args])
@@ -207,7 +208,7 @@ TASKS = {
 COMPUTING = ("demo", "viscontact")
 
 #: Packages of the locks that are installed only where the compilation of the core lacks them.
-BUILD_TOOLS = ("cmake", "ninja")
+BUILD_TOOLS = ("cmake",)
 
 
 # --- environment ------------------------------------------------------------------------------
@@ -254,8 +255,10 @@ def set_up(lock: Path) -> None:
         wheels = ["--only-binary", ":all:", "--no-deps", "--no-compile"]
         install(pip, [*into, *wheels, "--require-hashes", "-r", str(part)])
         show_left(max(len(packages) - done - AT_ONCE, 0))
-    # The build backend is in the lock; an isolated build would download another one.
-    install(pip, [*into, "--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
+    # The build backend is in the lock; an isolated build would download another one. The core is
+    # compiled afterwards, which says why if it cannot be.
+    project = ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)]
+    install(pip, [*into, *project], VISCONTACT_CORE="off")
     STAMP.write_text(fingerprint(lock))
 
 
@@ -272,8 +275,13 @@ def is_wanted(package: str) -> bool:
 
 def lacking(python: Path) -> list[str]:
     """Return the build tools that compiling the core needs here, and that are not installed."""
-    asked = [str(python), str(CORE / "compile_core.py"), "--lacks"]
-    return subprocess.run(asked, text=True, capture_output=True).stdout.split()
+    return core_script(python, "--lacks").stdout.split()
+
+
+def core_script(python: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run the script that compiles the core."""
+    asked = [str(python), str(CORE / "compile_core.py"), *words]
+    return subprocess.run(asked, env=clean(), text=True, capture_output=True, errors="replace")
 
 
 def core_fingerprint() -> str:
@@ -291,8 +299,8 @@ def compile_core() -> None:
     """Compile the core into the package, and say if it cannot be: runs then use NumPy."""
     if os.environ.get("VISCONTACT_CORE") == "off":
         return
-    script = str(CORE / "compile_core.py")
-    done = subprocess.run([str(PYTHON), script], env=clean(), text=True, capture_output=True)
+    print("go: compiling the core", flush=True)
+    done = core_script(PYTHON)
     if done.returncode == 0:
         print("go: the core is compiled", flush=True)
     else:
@@ -308,10 +316,11 @@ def show_left(left: int) -> None:
     print(f"go: {said:28}", end=end, flush=True)
 
 
-def install(command: list[str], args: list[str]) -> None:
+def install(command: list[str], args: list[str], **added: str) -> None:
     """Run a step of the set-up without output; raise `TaskError` with its last line if it fails."""
+    asked, given = [*command, *args], clean() | added
     done = subprocess.run(
-        [*command, *args], cwd=ROOT, env=clean(), text=True, capture_output=True, errors="replace"
+        asked, cwd=ROOT, env=given, text=True, capture_output=True, errors="replace"
     )
     if done.returncode == 0:
         return

@@ -33,13 +33,15 @@ class NotCompiledError(Exception):
 
 def compiled(build: Path = BUILD) -> Path:
     """Compile the core in a folder, and return the extension module."""
-    if os.environ.get("VISCONTACT_CORE") == "off":
+    if is_off():
         raise NotCompiledError("VISCONTACT_CORE is off")
     if not has_compiler():
         raise NotCompiledError("there is no C++ compiler")
     cmake = program("cmake")
     if cmake is None:
         raise NotCompiledError("there is no CMake")
+    if os.name != "nt" and not (program("make") or program("ninja")):
+        raise NotCompiledError("there is neither make nor Ninja")
     asked = options()
     # CMake keeps what it found, so a folder made for another place, Python or compiler begins anew.
     made_for = "\n".join([str(HERE), *asked, *(os.environ.get(name, "") for name in VARIABLES)])
@@ -55,6 +57,11 @@ def compiled(build: Path = BUILD) -> Path:
     done([cmake, "--install", str(build), "--config", "Release", "--prefix", str(into)], log)
     (extension,) = into.glob("_core*")
     return extension
+
+
+def is_off() -> bool:
+    """Whether the environment leaves the core out."""
+    return os.environ.get("VISCONTACT_CORE") == "off"
 
 
 def options() -> list[str]:
@@ -127,17 +134,14 @@ def lacks() -> list[str]:
 
     CMake takes a sixth of the space of all other packages of the demo.
     """
-    if os.environ.get("VISCONTACT_CORE") == "off" or not has_compiler():
+    if is_off() or not has_compiler():
         return []
-    wanted = [] if program("cmake") else ["cmake"]
-    if os.name != "nt" and not (program("ninja") or shutil.which("make")):
-        wanted.append("ninja")
-    return wanted
+    return [] if program("cmake") else ["cmake"]
 
 
 def into_checkout() -> Path:
     """Compile the core and put it into the package of this checkout, in place of an earlier one."""
-    for earlier in (*PLACE.glob("_core*.so"), *PLACE.glob("_core*.pyd")):
+    for earlier in () if is_off() else (*PLACE.glob("_core*.so"), *PLACE.glob("_core*.pyd")):
         earlier.unlink()  # built of other sources, or for another Python
     extension = compiled()
     return Path(shutil.copy2(extension, PLACE / extension.name))

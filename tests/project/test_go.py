@@ -26,6 +26,19 @@ PROJECT = SETTINGS["project"]
 BUILD = [*SETTINGS["build-system"]["requires"], *SETTINGS["dependency-groups"]["build"]]
 
 
+class Compilation:
+    """Stands in for the script that compiles the core: may fail, may lack tools."""
+
+    def __init__(self) -> None:
+        self.times, self.reason, self.lacking = 0, "", ""
+
+    def __call__(self, python: Path, *words: str) -> subprocess.CompletedProcess[str]:
+        if words == ("--lacks",):
+            return subprocess.CompletedProcess([], 0, self.lacking, "")
+        self.times += 1
+        return subprocess.CompletedProcess([], int(bool(self.reason)), self.reason, "")
+
+
 @pytest.fixture
 def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """Return `go` as a module that believes itself in an empty clone, and installs nothing."""
@@ -38,11 +51,14 @@ def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     (tmp_path / "requirements.lock").write_text("numpy==2.2\nruff==0.9\n")
     (tmp_path / "requirements-demo.lock").write_text("numpy==2.2\n")
     (tmp_path / "pyproject.toml").write_text("")
-    for name in ("LOCK", "DEMO_LOCK", "VENV", "STAMP", "LOG", "PYTHON"):
+    for name in ("LOCK", "DEMO_LOCK", "VENV", "STAMP", "LOG", "PYTHON", "CORE_STAMP"):
         inside = getattr(module, name).relative_to(module.ROOT)
         monkeypatch.setattr(module, name, tmp_path / inside)
     monkeypatch.setattr(module, "ROOT", tmp_path)
     monkeypatch.setattr(module, "run", lambda args: 0)
+    monkeypatch.setattr(module, "CORE", tmp_path / "core")
+    monkeypatch.setattr(module, "core_script", Compilation())
+    module.CORE.mkdir()
     return module
 
 
@@ -57,7 +73,7 @@ class Installer:
         self.interrupted = False
         monkeypatch.setattr(go, "install", self)
 
-    def __call__(self, command: list[str], args: list[str]) -> None:
+    def __call__(self, command: list[str], args: list[str], **added: str) -> None:
         if "venv" in command:
             self.environments += 1
             self.go.PYTHON.parent.mkdir(parents=True)
@@ -286,6 +302,59 @@ def test_the_manual_is_built_strictly_and_without_what_is_gone(
     assert not gone.exists()
 
 
+# --- the core -----------------------------------------------------------------------------------
+
+
+def test_the_core_is_compiled_once_and_again_when_its_sources_change(
+    go: ModuleType, installer: Installer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for task in ("test", "demo", "test"):
+        go.main([task])
+    assert go.core_script.times == 1
+    assert capsys.readouterr().out.count("go: the core is compiled\n") == 1
+    (go.CORE / "a.cpp").write_text("int x;")
+    asked = len(installer.asked)
+    go.main(["demo"])
+    assert (go.core_script.times, len(installer.asked)) == (2, asked)  # and installs nothing
+
+
+def test_a_core_that_cannot_be_compiled_stops_nothing_and_is_said_once(
+    go: ModuleType, installer: Installer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    go.core_script.reason = "there is no C++ compiler"
+    for _ in range(2):
+        assert go.main(["test"]) == 0
+    said = "go: no compiled core, so runs use NumPy: there is no C++ compiler\n"
+    assert capsys.readouterr().out.count(said) == 1
+    go.core_script.reason = ""
+    go.main(["setup"])  # a compiler was installed
+    assert go.core_script.times == 2
+
+
+def test_without_the_core_in_the_environment_none_is_compiled(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("VISCONTACT_CORE", "off")
+    go.main(["test"])
+    assert go.core_script.times == 0
+    monkeypatch.delenv("VISCONTACT_CORE")
+    go.main(["test"])
+    assert go.core_script.times == 1
+
+
+def test_build_tools_are_installed_where_they_are_lacking_only(
+    go: ModuleType, installer: Installer
+) -> None:
+    (go.ROOT / "requirements.lock").write_text("cmake==4.4\nnumpy==2.2\n")
+    go.main(["setup"])
+    assert installer.packages == ["numpy==2.2"]
+    go.core_script.lacking = "cmake"
+    go.main(["test"])  # computes without
+    assert installer.packages == ["numpy==2.2"]
+    go.main(["setup"])
+    assert installer.packages[1:] == ["cmake==4.4", "numpy==2.2"]
+
+
 # --- the lock -----------------------------------------------------------------------------------
 
 
@@ -323,7 +392,7 @@ def test_the_lock_of_the_demo_is_a_small_part_of_the_lock_that_computes_and_draw
     assert names(wanted) <= names(locked(DEMO_LOCK))
     assert set(locked(DEMO_LOCK)) <= set(locked())
     here = [Requirement(entry.split("\\")[0]).marker for entry in locked(DEMO_LOCK)]
-    # Beside viscontact itself; pip and what it brings come with Python.
+    # Beside viscontact itself; pip and what it brings come with Python. CMake is counted.
     assert 40 < sum(marker is None or marker.evaluate() for marker in here) < 50
 
 

@@ -16,6 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from packaging.tags import sys_tags
+from packaging.utils import parse_wheel_filename
 from ruamel.yaml import YAML
 
 import viscontact
@@ -26,21 +28,59 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 ON_CONDA = {"netCDF4": "netcdf4", "matplotlib": "matplotlib-base"}
 
 
-def ran(*command: object, folder: Path = ROOT) -> str:
+def ran(*command: object, folder: Path = ROOT, **added: str) -> str:
     """Run a command and return its output; a failure is a failure of the test."""
     words = [str(word) for word in command]
     clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    done = subprocess.run(words, cwd=folder, env=clean, capture_output=True, text=True)
+    done = subprocess.run(words, cwd=folder, env=clean | added, capture_output=True, text=True)
     assert done.returncode == 0, f"{words}\n{done.stdout}\n{done.stderr}"
     return done.stdout
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Return source archive and wheel of this checkout, by their suffix."""
+    """Return source archive and wheel of this checkout, by their suffix.
+
+    VISCONTACT_WHEELS is a folder with wheels that were built before: the one for this Python.
+    """
     folder = tmp_path_factory.mktemp("dist")
     ran(sys.executable, "-m", "hatchling", "build", "-d", folder)
-    return {path.suffix: path for path in folder.iterdir()}
+    found = {path.suffix: path for path in folder.iterdir()}
+    if given := os.environ.get("VISCONTACT_WHEELS"):
+        here = {str(tag) for tag in sys_tags()}
+        wheels = sorted((ROOT / given).glob("*.whl"))
+        (found[".whl"],) = (path for path in wheels if tags(path) & here)
+    return found
+
+
+def tags(wheel: Path) -> set[str]:
+    """Tags of the systems that a wheel is for."""
+    return {str(tag) for tag in parse_wheel_filename(wheel.name)[3]}
+
+
+def core_of(wheel: Path) -> list[str]:
+    """Compiled cores in a wheel."""
+    return [name for name in files_of(wheel) if name.endswith((".so", ".pyd"))]
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the wheel of a machine whose compiler fails."""
+    folder = tmp_path_factory.mktemp("plain")
+    ran(
+        sys.executable,
+        "-m",
+        "hatchling",
+        "build",
+        "-t",
+        "wheel",
+        "-d",
+        folder,
+        CXX="false",
+        VISCONTACT_CORE="",
+    )
+    (wheel,) = folder.iterdir()
+    return wheel
 
 
 def files_of(wheel: Path) -> set[str]:
@@ -68,6 +108,34 @@ def test_the_wheel_holds_the_package_and_nothing_else(built: dict[str, Path]) ->
 
 
 @pytest.mark.slow
+def test_a_wheel_is_for_the_systems_that_its_core_runs_on(
+    built: dict[str, Path], plain: Path
+) -> None:
+    core = core_of(built[".whl"])
+    if os.environ.get("VISCONTACT_CORE") == "required":
+        assert core
+    for name in core:
+        assert Path(name).parent == Path("viscontact/backend")
+        assert "any" not in {tag.rsplit("-", 1)[1] for tag in tags(built[".whl"])}
+        assert tags(built[".whl"]) & {str(tag) for tag in sys_tags()}
+        assert all(
+            ("-abi3-" in tag) == (sys.version_info >= (3, 12)) for tag in tags(built[".whl"])
+        )
+    assert core_of(plain) == []
+    assert tags(plain) == {"py3-none-any"}
+    assert files_of(built[".whl"]) - files_of(plain) == set(core)
+
+
+@pytest.mark.slow
+def test_a_core_that_is_required_and_fails_stops_the_build(tmp_path: Path) -> None:
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
+    given = {**os.environ, "VISCONTACT_CORE": "required", "CXX": "false"}
+    done = subprocess.run(build, cwd=ROOT, env=given, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.slow
 def test_the_source_archive_builds_the_same_wheel(built: dict[str, Path], tmp_path: Path) -> None:
     with tarfile.open(built[".gz"]) as opened:
         opened.extractall(tmp_path, filter="data")
@@ -79,9 +147,9 @@ def test_the_source_archive_builds_the_same_wheel(built: dict[str, Path], tmp_pa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [".gz", ".whl"])
+@pytest.mark.parametrize("kind", [".gz", ".whl", "plain"])
 def test_a_package_runs_from_an_environment_of_its_own(
-    built: dict[str, Path], tmp_path: Path, kind: str
+    built: dict[str, Path], plain: Path, tmp_path: Path, kind: str
 ) -> None:
     environment = tmp_path / "environment"
     venv.create(environment, with_pip=True)
@@ -92,12 +160,18 @@ def test_a_package_runs_from_an_environment_of_its_own(
     dependencies = {str(path) for path in map(Path, sys.path) if path.name == "site-packages"}
     (Path(installed.strip()) / "dependencies.pth").write_text("\n".join(sorted(dependencies)))
     offline = ("--no-index", "--no-deps", "--no-build-isolation", "--force-reinstall")
-    ran(scripts / "python", "-m", "pip", "install", "-q", *offline, built[kind])
+    package = built.get(kind, plain)
+    ran(scripts / "python", "-m", "pip", "install", "-q", *offline, package)
 
     command = scripts / "viscontact"
     assert ran(command, "--version", folder=tmp_path) == f"viscontact {viscontact.__version__}\n"
     place = ran(scripts / "python", "-P", "-c", "import viscontact; print(viscontact.__file__)")
     assert Path(place.strip()).is_relative_to(environment)
+    said = ran(command, "doctor", folder=tmp_path, VISCONTACT_CORE="")
+    kernels = "compiled" if core_of(built[".whl"]) else "NumPy (no compiled core: it is not built)"
+    if package == plain:
+        kernels = "NumPy (no compiled core: it is not built)"
+    assert re.search(rf"^inner loops +{re.escape(kernels)} *$", said, re.MULTILINE)
     ran(command, "example", "sphere-zener", "-o", "my.yaml", folder=tmp_path)
     ran(command, "run", "my.yaml", "--set", "time.steps=3", "-q", folder=tmp_path)
     assert (tmp_path / "my" / "result.nc").is_file()

@@ -18,7 +18,7 @@ from viscontact.cli.shell import command_for
 EXAMPLES = Path(viscontact.__file__).parent / "case" / "examples"
 CASE = EXAMPLES / "roller-dogbone-e05.yaml"
 # Not pydantic, which newer versions of Typer read options with.
-HEAVY = ("numpy", "scipy", "xarray", "netCDF4", "pint", "matplotlib")
+HEAVY = ("numpy", "scipy", "xarray", "netCDF4", "pint", "matplotlib", "viscontact.backend._core")
 # a third of a second together, on a machine of 2026
 SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndimage", "xarray")
 # Where ducc0 is installed, SciPy's transforms are not used; they import its special functions.

@@ -15,6 +15,8 @@ from __future__ import annotations
 
 import os
 
+from viscontact.backend.errors import CoreError
+
 #: Environment variable that chooses, and its values; empty: the core is used where it is.
 VARIABLE = "VISCONTACT_CORE"
 CHOICES = ("", "off", "required")
@@ -23,7 +25,7 @@ INTERFACE = 1
 
 _choice = os.environ.get(VARIABLE, "")
 if _choice not in CHOICES:
-    raise ValueError(f"{VARIABLE} must be 'off', 'required' or not set, got {_choice!r}")
+    raise CoreError(f"{VARIABLE} must be 'off', 'required' or not set, got {_choice!r}")
 
 #: Why there is no core; empty if there is one.
 absent = ""
@@ -36,9 +38,15 @@ try:
         raise ImportError("it was built of other sources")
 except ImportError as _error:
     core = None  # type: ignore[assignment]
-    absent = "it is not built" if isinstance(_error, ModuleNotFoundError) else str(_error)
+    # Systems name the file first, and then what is wrong with it.
+    absent = str(_error).rsplit(": ", 1)[-1]
+    if isinstance(_error, ModuleNotFoundError):
+        absent = "it is not built"
     if _choice == "required":
-        raise ImportError(f"{VARIABLE} is required, and there is no core: {absent}") from _error
+        raise CoreError(
+            f"{VARIABLE} is 'required', and there is no compiled core: {absent};"
+            " unset it to compute with NumPy"
+        ) from _error
 
 
 def kernels() -> str:

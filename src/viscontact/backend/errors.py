@@ -22,6 +22,10 @@ class AccuracyWarning(UserWarning):
     """
 
 
+class CoreError(ImportError):
+    """The environment asks for a compiled core that is not there, or in unknown words."""
+
+
 class RunError(RuntimeError):
     """Base of the exceptions of a run that stops after its first step.
 

@@ -124,9 +124,10 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
         raise error
     if is_lack_of_memory(error):
         return _lacks_memory()
+    from viscontact.backend.errors import CoreError
     from viscontact.results.damage import DamagedFileError
 
-    if isinstance(error, DamagedFileError):
+    if isinstance(error, DamagedFileError | CoreError):
         say(str(error))
         return REFUSED
     say(f"viscontact: unexpected {type(error).__name__}: {error}")
