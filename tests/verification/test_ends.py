@@ -224,7 +224,6 @@ def test_two_bodies_may_end_at_different_places() -> None:
     [
         ({"ends": "free", "load": vc.step(0.02, tilt_x=0.0)}, "load.tilt_x: .* bends as a plate"),
         ({"ends": "free", "load": vc.step(approach=1e-6)}, "has no datum"),
-        ({"grid": None}, "no grid is chosen"),
         ({"length": 4.01e-3}, "must be a border of cells"),
         ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-3])}, "the motion is along x"),
         ({"friction": 0.3}, "friction is not available"),

@@ -136,7 +136,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
         ("estimate for", f"largest {control}, {expected.compliance}"),
         *_expected_extent(expected, found),
         ("peak pressure", _peak_pressure(expected, found)),
-        *(follows if found.grid.has_datum else []),
+        *(follows if prepared.run.contact.has_datum(found.grid) else []),
     ]
 
 

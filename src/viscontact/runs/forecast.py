@@ -82,7 +82,7 @@ def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEsti
     response = problem.surface.response_at(problem.end)
     if any(run.grid.periodic):
         return estimate_period(problem.indenter, compliance, point, run.grid, response=response)
-    return locate_contact(problem.indenter, compliance, point, response=response)
+    return locate_contact(problem.cut_indenter, compliance, point, response=response)
 
 
 def _representative_compliance(problem: Problem, time: float) -> tuple[float, str]:

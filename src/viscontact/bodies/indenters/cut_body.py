@@ -33,6 +33,21 @@ class CutBody(Indenter):
         return self.body.curvatures
 
     @property
+    def endless(self) -> tuple[bool, bool]:
+        """Axes along which it continues without end: y, where the body does."""
+        return False, self.body.endless[1]
+
+    @property
+    def period(self) -> float:
+        """Shortest length over which the body repeats itself [m]."""
+        return self.body.period
+
+    @property
+    def periods(self) -> tuple[float, float]:
+        """Lengths along x and y over which the body repeats itself [m]."""
+        return self.body.periods
+
+    @property
     def sample_spacing(self) -> tuple[float, float]:
         """Spacing of the samples of the body [m]."""
         return self.body.sample_spacing

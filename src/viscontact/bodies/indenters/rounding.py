@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from viscontact.bodies import indenters
+from viscontact.bodies.indenters.cut_body import CutBody
 from viscontact.bodies.indenters.indenter import CombinedIndenter, Indenter, PlacedIndenter
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ _GENERAL = "give the end, edge or tip the radius that it has in reality, over se
 
 def rounding_remedy(indenter: Indenter) -> str:
     """Sentence on how to round a body, so that its largest pressure has a limit."""
-    if isinstance(indenter, PlacedIndenter):
+    if isinstance(indenter, PlacedIndenter | CutBody):
         return rounding_remedy(indenter.body)
     if isinstance(indenter, CombinedIndenter):
         found = (rounding_remedy(part) for part in indenter.parts)

@@ -52,6 +52,23 @@ def has_ends(response: SurfaceResponse) -> bool:
     return any(isinstance(part, EndedResponse) for part, _ in parts_of(response))
 
 
+def planes_in(response: SurfaceResponse) -> tuple[float, ...]:
+    """Positions x of all ends of a response [m]."""
+    ended = (part for part, _ in parts_of(response) if isinstance(part, EndedResponse))
+    return tuple(plane for part in ended for plane in part.planes if plane is not None)
+
+
+def has_even_ends(response: SurfaceResponse) -> bool:
+    """True if all ends are alike on both sides of x = 0, and without ends."""
+    ended = [part for part, _ in parts_of(response) if isinstance(part, EndedResponse)]
+    return all(
+        part.free[0] == part.free[1]
+        and None not in part.planes
+        and part.planes[0] == -(part.planes[1] or 0.0)
+        for part in ended
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class EndedRows:
     """Rows of cells between planes across x, with what all blocks of them share."""

@@ -123,14 +123,16 @@ def strip_basis(
     )
     # All waves add up at y = 0, where the largest entries are left out.
     total = means @ np.tensordot(measures[long] @ of_table, table.entries, axes=1) @ means.T
-    total += np.einsum("krm,ksm->rs", measures[~long, None, None] * short, short, optimize=True)
+    scaled = np.sqrt(measures[~long])[:, None, None] * short
+    flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
+    total += flat @ flat.T
     factors, _ = pivoted_cholesky(total.diagonal().copy(), lambda k: total[:, k], NEGLECTED)
     basis = np.linalg.qr(factors)[0]
     on_nodes, at_ends = basis.T @ means, basis.T @ short
     entries = on_nodes @ table.entries @ on_nodes.T
     products = [np.tensordot(of_table, entries, axes=1), at_ends @ at_ends.swapaxes(1, 2)]
-    scaled = waves * half_length
-    left_out = np.multiply.outer(np.exp(-scaled) / scaled, entries[-1])
+    over_length = waves * half_length
+    left_out = np.multiply.outer(np.exp(-over_length) / over_length, entries[-1])
     # An even pressure is half of the sum of the pressures in both halves of the body.
     scale = cell_size[0] / sum(strip.free)
     return StripBasis(

@@ -16,6 +16,7 @@ from viscontact.bodies.adhesion import Adhesion
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
+from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.bodies.laws import Law
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.clock import TIME, Clock, ReducedTime
@@ -198,6 +199,17 @@ class Problem:
         """Bodies that end, by the names of their arguments."""
         both = {"material": self.material, "indenter_material": self.indenter_material}
         return {name: body for name, body in both.items() if isinstance(body, Body)}
+
+    @property
+    def planes(self) -> tuple[float, ...]:
+        """Positions x of the ends of all bodies [m]."""
+        bodies = self.ended_bodies.values()
+        return tuple(plane for body in bodies for plane in body.planes if plane is not None)
+
+    @cached_property
+    def cut_indenter(self) -> Indenter:
+        """The indenter without what lies beyond the ends of the bodies."""
+        return cut_at(self.indenter, [body.planes for body in self.ended_bodies.values()])
 
     @property
     def constant_temperature(self) -> float | None:

@@ -12,6 +12,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.loads import MixedHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.cell_fields import is_even
@@ -37,7 +38,6 @@ from viscontact.simulation.accuracy.moving_levels import (
     fewer_moving_times,
     whole_cell_ratios,
 )
-from viscontact.simulation.checks.ends import planes_of, with_borders_at
 from viscontact.simulation.transient.setup import RunSetup, plan_history
 
 if TYPE_CHECKING:
@@ -213,12 +213,12 @@ def _coarser_run(
     if (motion := run.problem.motion).stands:
         ratios = aligned_spacing(run, spacing, parity)
         grid = coarser_grid(run.grid, ratios, parity)
-        planes = planes_of(run.problem)
-        coarse = run.on(with_borders_at(grid, planes) if planes else grid)
+        coarse = run.on(with_borders_at(grid, run.problem.planes))
     else:
         ratios = spacing, spacing
         grid = coarser_grid(run.grid, ratios, parity)
-        coarse = run.on(aligned_along(grid, run.grid, motion))
+        aligned = aligned_along(grid, run.grid, motion)
+        coarse = run.on(with_borders_at(aligned, run.problem.planes))
     if run.law is not None:  # a run that ends where its bodies are pulled off may end earlier
         times = np.union1d(times, run.problem.end)
     problem = replace(

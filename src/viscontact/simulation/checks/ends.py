@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.bodies.cell_borders import is_border
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.motion import Motion
@@ -15,9 +15,6 @@ from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
-
-#: Largest distance of an end from a border of cells, in cells.
-ON_BORDER = 1e-6
 
 #: Reason why a body between two ends has no approach.
 NO_DATUM = (
@@ -45,11 +42,6 @@ def check_ends(problem: Problem) -> None:
                 raise ValueError(
                     f"{name}.ends: {other} is not available on a body that ends; leave one out"
                 )
-        if not isinstance(problem.grid, Grid):
-            raise ValueError(
-                f"{name}.ends: no grid is chosen for a body that ends; give 'shape' and 'size' of "
-                "a grid with borders of cells at the ends"
-            )
     if problem.ends_twice and problem.load.control != "force":
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
@@ -112,36 +104,6 @@ def tilts_from_datum(problem: Problem, grid: Grid, open_gap: Floats) -> bool:
         and grid.centre[0] == 0
         and np.array_equal(open_gap, open_gap[::-1])
     )
-
-
-def is_border(grid: Grid, plane: float) -> bool:
-    """True if a plane across x lies on a border of cells, in the grid or continued beyond it."""
-    place = (plane - grid.centre[0] + grid.size[0] / 2) / grid.cell_size[0]
-    return abs(place - round(place)) < ON_BORDER
-
-
-def with_borders_at(grid: Grid, planes: Sequence[float]) -> Grid:
-    """Grid whose cells end at planes across x, the first and the last of several [m]."""
-    first, last = min(planes), max(planes)
-    (lx, ly), (x, y), cell = grid.size, grid.centre, grid.cell_size[0]
-    if last > first:
-        fitted = (last - first) / max(1, round((last - first) / cell))
-        lx, cell = lx * fitted / cell, fitted
-    place = (first - x + lx / 2) / cell
-    if abs(place - round(place)) * cell > ON_BORDER * cell:
-        x += (place - round(place)) * cell
-    return replace(grid, size=(lx, ly), centre=(x, y))
-
-
-def planes_of_each(problem: Problem) -> list[tuple[float | None, float | None]]:
-    """Positions x of the ends of each body at -x and at +x; None where it goes on [m]."""
-    return [body.planes for body in problem.ended_bodies.values()]
-
-
-def planes_of(problem: Problem) -> tuple[float, ...]:
-    """Positions x of the ends of all bodies [m]."""
-    bodies = problem.ended_bodies.values()
-    return tuple(plane for body in bodies for plane in body.planes if plane is not None)
 
 
 def error_of_ends(problem: Problem, *, even: bool) -> float:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.bodies.cell_borders import is_border, with_borders_at
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.mechanics.contact.body_edge import trace_outline
@@ -16,6 +17,9 @@ LINES = 48
 
 #: Ends on two lines agree if they differ by less than this part of a cell.
 STRAIGHT = 1e-6
+
+#: Ends of the indenter closer to a plane than this part of a cell are at the plane.
+STRAIGHT_END = 1e-3
 
 #: Largest relative change of an extent that lets a cell end with the body.
 MAX_CHANGE = 0.1
@@ -65,3 +69,17 @@ def _fit_extent(extent: float, count: int, end: float) -> float:
     pairs = round(count * end / (2 * extent)) if end < extent / 2 else 0
     fitted = count * end / (2 * pairs) if pairs else extent
     return fitted if abs(fitted / extent - 1) <= MAX_CHANGE else extent
+
+
+def grid_with_ends(grid: Grid, planes: tuple[float, ...], end: float) -> Grid:
+    """Grid of which pairs of cells end at planes, and if it can be at the indenter's ends [m].
+
+    The indenter ends at a distance on one or both sides of the grid's centre, or not (inf).
+    """
+    sides = [grid.centre[0] + side * end for side in (-1, 1)] if math.isfinite(end) else []
+    near = STRAIGHT_END * grid.cell_size[0]
+    others = [each for each in sides if min(abs(each - plane) for plane in planes) > near]
+    both = with_borders_at(grid, [*planes, *others], joined=2)
+    if all(is_border(both, plane) for plane in planes):
+        return both
+    return with_borders_at(grid, planes, joined=2)

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadPoint
@@ -18,6 +19,7 @@ from viscontact.mechanics.contact.equilibrium import solve_contact
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.rim import Rim, trace_rim
+from viscontact.mechanics.halfspace.ended_half_space import planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.units.formatting import format_quantity
 
@@ -178,7 +180,7 @@ def estimate_contact(
     size = np.full(2, 4 * max(scale, lever))
     for _ in range(MAX_TRIES):
         cells, extents = (COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1]))
-        grid = Grid(cells, extents, centre=centre)
+        grid = with_borders_at(Grid(cells, extents, centre=centre), planes_in(response))
         open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
         if not np.isfinite(open_gap).any():
             # A height map may be smaller than the cells, and lie between their centres.

@@ -26,6 +26,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.cell_borders import refined_to_borders
 from viscontact.bodies.grid import MIN_CELLS_ACROSS, AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.rounding import rounding_remedy
@@ -44,6 +45,7 @@ from viscontact.simulation.meshing.contact_extent import (
 from viscontact.simulation.meshing.contact_place import grid_centre
 from viscontact.simulation.meshing.creeping_peak import contact_growth
 from viscontact.simulation.meshing.edge_ring import resolve_ring
+from viscontact.simulation.meshing.end_cells import cell_for_ends
 from viscontact.simulation.meshing.full_contact_warning import whole_map_warning
 from viscontact.simulation.meshing.height_map_error import facet_error
 from viscontact.simulation.meshing.line_contacts import grid_of_line
@@ -91,8 +93,8 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     """Choose the grid of a contact problem, up to `end` [s]; ValueError if none is suitable."""
     if problem.adhesion is not None:
         return Mesh(adhesive_grid(problem, end), {}, {})
-    indenter, load, compliance = problem.indenter, problem.contact_load, problem.compliance
-    request = problem.automatic_grid or AutomaticGrid()
+    indenter, load, compliance = problem.cut_indenter, problem.contact_load, problem.compliance
+    request = _with_datum(problem.automatic_grid or AutomaticGrid(), problem)
     if line_axis(indenter) is not None:
         return Mesh(grid_of_line(problem, end), {}, {})
     # Step 1: the contacts of the history, and the size of the grid.
@@ -121,12 +123,20 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     mesh = replace(mesh, warnings=mesh.warnings | whole_map_warning(indenter, largest, mesh.grid))
     _log(mesh)
     ring = cell_for_ring(problem, largest, end, mesh.grid, request.tolerance)
-    for cell in (request.largest_cell, ring):
+    for cell in (request.largest_cell, ring, cell_for_ends(problem, largest, request.tolerance)):
         if cell is not None:
             grid, reached = mesh.grid, largest.estimate.reach_from(centre)
             ends = straight_ends(indenter, grid.size, reached, centre)
             mesh = replace(mesh, grid=with_small_cells(grid, cell, ends))
-    return mesh
+    return replace(mesh, grid=refined_to_borders(mesh.grid, problem.planes))
+
+
+def _with_datum(request: AutomaticGrid, problem: Problem) -> AutomaticGrid:
+    """Requirements without the approach where it has no datum, between two ends."""
+    if not problem.ends_twice:
+        return request
+    kept = [name for name in request.quantities if name != "approach"]
+    return replace(request, quantities=kept or ["contact_area"])
 
 
 def _log(mesh: Mesh) -> None:
@@ -146,7 +156,7 @@ def _contacts_before_creep(problem: Problem, end: float | None) -> list[PointCon
         return []
     response = problem.surface.response_at(0.0)
     load = problem.contact_load
-    return contacts_of_history(problem.indenter, compliance, load, end, response=response)
+    return contacts_of_history(problem.cut_indenter, compliance, load, end, response=response)
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,7 +292,7 @@ def _refined_for_ring(
     """Step 5: refine for the peak pressure while the contact grows, within a limit on the cells."""
     if PEAK not in mesh.errors:
         return mesh
-    indenter, request = problem.indenter, problem.automatic_grid or AutomaticGrid()
+    indenter, request = problem.cut_indenter, problem.automatic_grid or AutomaticGrid()
     growth = contact_growth(indenter, problem.compliance, problem.contact_load, end, largest)
     if growth is None:
         return mesh

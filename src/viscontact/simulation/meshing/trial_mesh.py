@@ -17,8 +17,9 @@ from viscontact.mechanics.contact.body_edge import END_DEPTH, end_cells, trace_o
 from viscontact.mechanics.contact.domain import ContactDomain, mirrored_axes
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.mechanics.halfspace.ended_half_space import has_even_ends, planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
-from viscontact.simulation.meshing.body_fit import fitted_extents
+from viscontact.simulation.meshing.body_fit import fitted_extents, grid_with_ends
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, elastic_contact
 
 #: Error of the rim's position on a row of cells, in cells, the largest on Hertz's ellipses. The
@@ -62,7 +63,10 @@ class ElasticContact:
     response: SurfaceResponse = HALF_SPACE
 
     def grid(self, shape: tuple[int, int]) -> Grid:
-        """Grid with these numbers of cells, which end where the body ends."""
+        """Grid with these numbers of cells, which end where the body ends, also joined in pairs."""
+        planes = planes_in(self.response)
+        if planes:
+            return grid_with_ends(Grid(shape, self.size, centre=self.centre), planes, self.ends[0])
         return Grid(shape, fitted_extents(self.size, shape, self.ends), centre=self.centre)
 
 
@@ -186,7 +190,7 @@ def _solve_on(
     indenter, point = pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     even = (
-        not (point.eccentricity_x or point.tilt_x),
+        has_even_ends(pressing.response) and not (point.eccentricity_x or point.tilt_x),
         not (point.eccentricity_y or point.tilt_y),
     )
     found = elastic_contact(

@@ -9,14 +9,13 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
+from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import Grid
-from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.mechanics.contact.domain import mirrored_axes
 from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.steady_equilibrium import SteadySolution, solve_steady_contact
-from viscontact.simulation.checks.ends import planes_of, planes_of_each, with_borders_at
 from viscontact.simulation.steady_motion.moving_law import MovingLaws
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
@@ -125,8 +124,7 @@ class SteadySolver:
             return None
         nx, ny = (cells if keeps else (cells + 1) // 2 for cells, keeps in pairs)
         coarse = replace(grid, shape=(nx, ny))
-        if planes := planes_of(self.problem.contact):
-            coarse = with_borders_at(coarse, planes)
+        coarse = with_borders_at(coarse, self.problem.contact.planes)
         return self.solve(speed, coarse, tolerance)
 
     def _is_uniform(self, grid: Grid, axis: int) -> bool:
@@ -139,8 +137,7 @@ class SteadySolver:
 
 def gap_on(problem: SteadyProblem, grid: Grid) -> Floats:
     """Gap of the indenter on a grid [m]."""
-    indenter, planes = problem.contact.indenter, planes_of_each(problem.contact)
-    return cut_at(indenter, planes).gap(grid.x[:, None], grid.y[None, :])
+    return problem.contact.cut_indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
 def _guess(near: Neighbour, domain: MovingDomain) -> Guess | None:

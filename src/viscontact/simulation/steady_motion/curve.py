@@ -17,7 +17,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
-from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
+from viscontact.simulation.checks.ends import datum_of_ends_warnings
 from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.half_space_theory import (
     SINGULAR_KINDS,
@@ -271,7 +271,7 @@ def geometry_of(
         thickness=body.thickness,
         indenter_gives=body.indenter_material is not None
         and "indenter_material" not in body.ended_bodies,
-        planes=planes_of(body),
+        planes=body.planes,
         covers=covers_of(body.bodies, passed),
         is_supported=body.surface.is_supported,
         predicted=predicted,

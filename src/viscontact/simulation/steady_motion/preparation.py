@@ -38,6 +38,7 @@ from viscontact.simulation.steady_motion.region import (
     common_grid,
     find_region,
     lattice_for,
+    lattice_with_ends,
 )
 from viscontact.simulation.steady_motion.traction import TractionSolver
 from viscontact.units.formatting import format_quantity
@@ -121,7 +122,7 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     transforms = transforms_by(library, threads)
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
     check_ends(contact)
-    check_endless(contact.indenter, given if isinstance(given, Grid) else None)
+    check_endless(contact.cut_indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):
         supported = contact.surface.is_supported
         check_grid_of_ends(contact, given)
@@ -140,8 +141,12 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     fast, slow = (estimate_at(problem, float(speed)) for speed in (speeds.max(), speeds.min()))
     extents = fast.extents[axis], slow.extents[axis]
     solver = SteadySolver(problem, moving_laws(problem, extents), transforms)
+    if contact.ended_bodies:
+        _refuse_flow(solver.laws, None, twice=contact.ends_twice)
     setup = SteadySetup(solver, (), threads, library, _shear_laws(problem, extents))
-    return _on_chosen_grids(setup, fast)
+    setup = _on_chosen_grids(setup, fast)
+    check_tilt_of_ends(contact, [problem.point], setup.grids[0], gap_on(problem, setup.grids[0]))
+    return setup
 
 
 def _shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[ShearLaw, ...]:
@@ -191,6 +196,7 @@ def _on_chosen_grids(setup: SteadySetup, estimate: ContactEstimate) -> SteadySet
     lattice = _on_layers(lattice, problem.contact.thinnest_layer, problem.axis)
     if request.largest_cell is not None:
         lattice = Lattice(np.minimum(lattice.cell_size, request.largest_cell))
+    lattice = lattice_with_ends(lattice, problem.contact.planes)
     grids = [
         lattice.grid_over(regions[speed], centred=centred) for speed in problem.speeds.tolist()
     ]
@@ -221,7 +227,7 @@ def estimate_at(problem: SteadyProblem, speed: float) -> ContactEstimate:
     time = 1.0
     for _ in range(ROUNDS + 1):
         compliance, response = float(contact.compliance(time)), contact.surface.response_at(time)
-        found = locate_contact(contact.indenter, compliance, problem.point, response=response)
+        found = locate_contact(contact.cut_indenter, compliance, problem.point, response=response)
         time = found.extents[problem.axis] / (2 * speed)
     return found
 
@@ -230,12 +236,13 @@ def _centred(problem: SteadyProblem, reach: Floats) -> tuple[bool, bool]:
     """True across the motion if body and load are even there: the grid is centred on its axis."""
     across, load = 1 - problem.axis, problem.contact.load
     around = Grid((EVEN_SAMPLES, EVEN_SAMPLES), (2 * float(reach[0]), 2 * float(reach[1])))
-    both = (load.is_even(0), load.is_even(1))
+    alike = all(body.is_even for body in problem.contact.ended_bodies.values())
+    both = (alike and load.is_even(0), load.is_even(1))
     even = mirrored_axes(around, gap_on(problem, around), both)[across]
     return across == 0 and even, across == 1 and even
 
 
-def _refuse_flow(laws: MovingLaws, grid: Grid, *, twice: bool) -> None:
+def _refuse_flow(laws: MovingLaws, grid: Grid | None, *, twice: bool) -> None:
     """Refuse a fluid under a line contact, which drags ever more of it along (Stokes' paradox)."""
     if laws.sinks and twice:
         raise ValueError(
@@ -243,7 +250,7 @@ def _refuse_flow(laws: MovingLaws, grid: Grid, *, twice: bool) -> None:
             "without limit with the distance travelled, so that there is no steady state; use a "
             "solid, such as a Zener law, or one end at most"
         )
-    if laws.sinks and not grid.has_datum:
+    if laws.sinks and grid is not None and not grid.has_datum:
         raise ValueError(
             "material: the material flows, and on a grid that is periodic across the motion the "
             "resistance of a fluid grows without limit with the distance travelled, so "

@@ -8,7 +8,6 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter
-from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
@@ -43,9 +42,7 @@ class SteadyProblem:
     def body_on(self, grid: Grid) -> Indenter:
         """The body, on a grid that repeats itself with its next periods; cut off at ends."""
         body = self.contact.indenter
-        if any(grid.periodic):
-            return PeriodicBody(body, grid)
-        return cut_at(body, [each.planes for each in self.contact.ended_bodies.values()])
+        return PeriodicBody(body, grid) if any(grid.periodic) else self.contact.cut_indenter
 
     @property
     def kept(self) -> Floats:

@@ -14,6 +14,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.cell_borders import cell_length, with_borders_at
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.moving_domain import COARSEST
 from viscontact.simulation.steady_motion.contact import SteadyContact, SteadySolver
@@ -67,19 +68,21 @@ class Lattice:
     """Cells of all grids of a run: cell i along an axis lies between i and i + 1 edges."""
 
     cell_size: Floats  # [m]
+    origin: float = 0.0  # border of cells along x [m]
 
     def grid_over(self, region: Region, *, centred: tuple[bool, bool]) -> Grid:
         """Grid of the lattice over a region with a margin, centred on 0 along some axes."""
         shape, size, centre = [], [], []
         region = region.centred(centred)
         for axis, cell in enumerate(self.cell_size.tolist()):
-            low, high = (float(each[axis]) / cell for each in (region.low, region.high))
+            origin = 0.0 if axis == 1 else self.origin
+            low, high = ((float(each[axis]) - origin) / cell for each in (region.low, region.high))
             room = MARGIN_CELLS + MARGIN / 2 * (high - low)
             count = _divisible(high - low + 2 * room)
             first = round((low + high - count) / 2)
             shape.append(count)
             size.append(count * cell)
-            centre.append((first + count / 2) * cell)
+            centre.append(origin + (first + count / 2) * cell)
         return Grid((shape[0], shape[1]), (size[0], size[1]), centre=(centre[0], centre[1]))
 
 
@@ -88,6 +91,17 @@ def lattice_for(regions: list[Region], across: float) -> Lattice:
     extents = np.array([region.extents for region in regions])
     smallest, largest = extents.min(axis=0), extents.max(axis=0)
     return Lattice(np.maximum(smallest / across, largest / (MOST_OF_LATTICE * across)))
+
+
+def lattice_with_ends(lattice: Lattice, planes: Sequence[float]) -> Lattice:
+    """Lattice of which cells, of at most the same length, end at planes across x [m]."""
+    if not planes:
+        return lattice
+    # About the origin where ends lie on both sides alike, so that grids can be centred on it.
+    even = set(planes) == {-plane for plane in planes}
+    along, across = lattice.cell_size.tolist()
+    length = cell_length([*planes, 0.0] if even else planes, along)
+    return Lattice(np.array([length, across]), 0.0 if even else planes[0])
 
 
 def common_grid(grids: Sequence[Grid]) -> Grid:
@@ -116,7 +130,8 @@ def find_region(
     work = 0.0
     for _ in range(MAX_SEARCHES):
         box = box.centred(centred)
-        found = solver.solve(speed, box.grid(SEARCH_CELLS), SEARCH_TOLERANCE)
+        grid = with_borders_at(box.grid(SEARCH_CELLS), solver.problem.contact.planes)
+        found = solver.solve(speed, grid, SEARCH_TOLERANCE)
         work += found.solution.work
         region, across, touched = _measure(found)
         if not touched.any() and across.min() >= FEWEST_ACROSS:

@@ -9,6 +9,7 @@ from viscontact.bodies.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.temperature import TemperatureHistory, as_temperature
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem import Problem
@@ -19,13 +20,13 @@ from viscontact.simulation.meshing.mesh_choice import choose_mesh
 
 def auto_grid(  # noqa: PLR0913
     indenter: Indenter,
-    material: Material | Layered,
+    material: Material | Layered | Body,
     load: LoadHistory,
     tolerance: float = 0.01,
     *,
     quantities: Sequence[str] = GRID_QUANTITIES,
     end: float | None = None,
-    indenter_material: Material | Layered | None = None,
+    indenter_material: Material | Layered | Body | None = None,
     temperature: TemperatureHistory | float | None = None,
     adhesion: Adhesion | None = None,
 ) -> Grid:
@@ -35,8 +36,8 @@ def auto_grid(  # noqa: PLR0913
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material or Layered
-        Material of the half-space, or a body of layers.
+    material : Material, Layered or Body
+        Material of the half-space, a body of layers, or one that ends.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     tolerance : float, optional
@@ -46,7 +47,7 @@ def auto_grid(  # noqa: PLR0913
     end : float, optional
         Last instant of the run [s]; the load's last point, or the end of all creep, when left
         out.
-    indenter_material : Material or Layered, optional
+    indenter_material : Material, Layered or Body, optional
         Material of the indenter; rigid when left out.
     temperature : TemperatureHistory or float, optional
         Temperature of the bodies over time, or a constant one [K], as in `simulate`.
@@ -90,5 +91,5 @@ def auto_grid(  # noqa: PLR0913
         adhesion=adhesion,
     )
     check_ends(problem)
-    check_endless(indenter, None)
+    check_endless(problem.cut_indenter, None)
     return choose_mesh(problem, end).grid

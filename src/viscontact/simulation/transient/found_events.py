@@ -10,6 +10,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import Condition, ForceHistory, LoadPoint, MixedHistory
 from viscontact.bodies.loads.program import CONTROL_UNITS
@@ -49,7 +50,7 @@ def carried_out(problem: Problem, threads: int = 1, *, roughly: bool = False) ->
         found = _rough_march(problem, latest)
         grid = _grid_for(problem, found)
     elif roughly:
-        few = _coarse(grid)
+        few = with_borders_at(_coarse(grid), problem.planes)
         found = _search(resolved_on(_with_few_steps(problem), few), few, latest)
     if not roughly:
         found = _search(problem, grid, latest, threads)
@@ -92,6 +93,7 @@ def _rough_march(problem: Problem, latest: float) -> tuple[transient.EventSearch
     size = 2 * MARGIN * np.array(_first_reach(problem, latest))
     for _ in range(ROUGH_MARCHES):
         grid = Grid((ROUGH_CELLS, ROUGH_CELLS), (float(size[0]), float(size[1])))
+        grid = with_borders_at(grid, problem.planes)
         try:
             found = _search(resolved_on(easy, grid), grid, latest)
         except (DomainError, ConvergenceError):  # too small, or cells of an awkward size
@@ -134,7 +136,7 @@ def _first_reach(problem: Problem, latest: float) -> tuple[float, float]:
     )
     compliance = float(problem.compliance(latest))
     response = problem.surface.response_at(latest)
-    found = meshing.locate_contact(problem.indenter, compliance, point, response=response)
+    found = meshing.locate_contact(problem.cut_indenter, compliance, point, response=response)
     return found.reach_from((0.0, 0.0))
 
 

@@ -15,7 +15,6 @@ from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
-from viscontact.bodies.indenters.cut_body import cut_at
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.contact.domain import mirrored_axes
@@ -144,7 +143,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_creep(problem)
     check_jumps(problem)
     given = problem.grid if isinstance(problem.grid, Grid) else None
-    check_endless(problem.indenter, given)
+    check_endless(problem.cut_indenter, given)
     points = points_under_load(problem)
     # 2. Take the given grid, or choose one by elastic trial contacts.
     if given is not None:
@@ -206,7 +205,7 @@ def _body(problem: Problem, grid: Grid) -> Indenter:
     repeats = any(grid.periodic) and not problem.motion.stands
     if repeats:
         return PeriodicBody(problem.indenter, grid)
-    return cut_at(problem.indenter, [body.planes for body in problem.ended_bodies.values()])
+    return problem.cut_indenter
 
 
 def _placed(body: Indenter, position: tuple[float, float]) -> Indenter:

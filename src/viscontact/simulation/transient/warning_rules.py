@@ -16,7 +16,7 @@ from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, Ti
 from viscontact.simulation import checks
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
-from viscontact.simulation.checks.ends import datum_of_ends_warnings, planes_of
+from viscontact.simulation.checks.ends import datum_of_ends_warnings
 from viscontact.simulation.checks.friction import coupling_warnings, rise_warnings
 from viscontact.simulation.checks.material import (
     expansion_warnings,
@@ -93,7 +93,7 @@ def geometry_of(
         thickness=problem.thickness,
         indenter_gives=problem.indenter_material is not None
         and "indenter_material" not in problem.ended_bodies,
-        planes=planes_of(problem),
+        planes=problem.planes,
         covers=covers_of(problem.bodies, problem.end, problem.clocks),
         is_supported=problem.surface.is_supported,
         predicted=predicted,
