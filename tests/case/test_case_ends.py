@@ -47,3 +47,34 @@ def test_a_case_gives_the_ends_of_a_body(tmp_path: Path) -> None:
 def test_an_end_that_is_not_complete_is_refused(tmp_path: Path, ends: str, why: str) -> None:
     with pytest.raises(CaseError, match=why):
         _case(tmp_path, ends)
+
+
+ROLLER = """
+indenter: {{shape: roller, radius: 10 mm, {length}}}
+material: {{law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.4}}
+indenter_material: {{law: elastic, shear_modulus: 80 GPa, poisson_ratio: 0.3, {ends}}}
+load: {{kind: step, force: 1 N}}
+time: {{end: 1 s, steps: 1}}
+"""
+
+
+def _roller(folder: Path, length: str, ends: str) -> Any:
+    path = folder / "case.yaml"
+    path.write_text(ROLLER.format(length=length, ends=ends), encoding="utf-8")
+    return read_case(path).indenter_material
+
+
+def test_the_material_of_a_roller_ends_where_the_roller_does(tmp_path: Path) -> None:
+    for length in ("length: 5 mm", "half_length: 2.5 mm", "length: 5 mm, profile: iso-16281"):
+        body = _roller(tmp_path, length, "ends: free")
+        assert isinstance(body, Body)
+        assert body.planes == close_to((-2.5e-3, 2.5e-3), rel=1e-12)
+    own = _roller(tmp_path, "length: 5 mm", "ends: [free, null], length: 5 mm")
+    assert own.planes == (close_to(-2.5e-3, rel=1e-12), None)
+
+
+def test_a_roller_without_end_leaves_no_length_to_its_material(tmp_path: Path) -> None:
+    with pytest.raises(
+        CaseError, match=r"indenter_material\.length: a body that ends has a length"
+    ):
+        _roller(tmp_path, "half_length: 2.5 mm, crown_radius: 50 mm", "ends: free")

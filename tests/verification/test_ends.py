@@ -257,3 +257,35 @@ def test_a_body_that_ends_needs_a_constant_poisson_ratio_and_one_material() -> N
         vc.Body(vc.Layered([vc.Layer(1e-3, rubber)], "rigid"), 1e-3)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="a body without ends is a Material"):
         vc.Body(rubber, 1e-3, ends=(None, None))
+
+
+def test_the_material_of_a_roller_that_ends_elsewhere_than_the_roller_is_refused() -> None:
+    steel, rubber = (vc.Material(vc.Elastic(each), 0.3) for each in (80e9, 1e6))
+    roller = vc.Roller(0.01, 2e-3)
+    for body in (vc.Body(steel, 5e-3), vc.Body(steel, 4e-3, centre=1e-4, ends=(None, "free"))):
+        with pytest.raises(ValueError, match=r"indenter_material\.length: the roller ends at x = "):
+            vc.simulate(roller, rubber, vc.step(1.0), times=[0.0], indenter_material=body)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum, sharp end
+def test_the_ends_of_a_roller_and_of_its_track_have_the_same_effect() -> None:
+    # Both bodies add their displacements: which of them is called the roller does not matter.
+    soft, hard = vc.Elastic(700e6), vc.Elastic(1e15)
+    roller, load = vc.Roller(0.01, 2e-3), vc.step(20.0)
+    grid = vc.Grid((44, 32), (4.4e-3, 0.6e-3))
+
+    def line_load(own: vc.Law, other: vc.Law, *, of_roller: bool) -> Any:
+        ended = vc.Body(vc.Material(own, 0.4), 4e-3)
+        endless = vc.Material(other, 0.3)
+        bodies = (endless, ended) if of_roller else (ended, endless)
+        found = vc.simulate(
+            roller, bodies[0], load, grid, [0.0], indenter_material=bodies[1], errors=False
+        )
+        return found.line_load[0].values
+
+    of_roller = line_load(soft, hard, of_roller=True)
+    assert of_roller == close_to(line_load(soft, hard, of_roller=False), rel=1e-6)
+    assert of_roller[2] < 0.8 * of_roller[22]
+    # A roller as soft as its endless track carries more at its end, one that is harder a peak.
+    alike = line_load(soft, soft, of_roller=True)
+    assert of_roller[2] / of_roller[22] < alike[2] / alike[22]

@@ -100,7 +100,7 @@ def test_two_bodies_that_end_at_different_places_have_cells_for_both() -> None:
     awkward = vc.Body(vc.Material(vc.Elastic(2e9), 0.3), 4e-3 * np.sqrt(2))
     with pytest.raises(ValueError, match="have borders at all ends"):
         vc.auto_grid(
-            vc.Roller(10e-3, 3.13e-3),
+            vc.Roller(10e-3, 2e-3 * np.sqrt(2)),
             vc.Body(RUBBER, LENGTH),
             vc.step(LINE * LENGTH),
             indenter_material=awkward,

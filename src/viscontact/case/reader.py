@@ -140,7 +140,7 @@ def _case(document: Document, found: CaseFile) -> Case:
             times = with_instants(times, fields)
     except ValueError as error:
         raise CaseError(document.problem(("output", "fields"), str(error))) from error
-    of_indenter, files = found.indenter_material, _files(found, document)
+    files = _files(found, document)
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
@@ -156,7 +156,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         leakage=found.leakage.settings if found.leakage else {},
         grid=found.grid.build() if found.grid else None,
         times=times,
-        indenter_material=of_indenter.body if of_indenter else None,
+        indenter_material=found.indenter_body,
         tolerance=found.tolerance,
         kept=KeptFields(fields),
         errors=found.output.errors,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -13,16 +14,19 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.motion import STANDING, Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
+from viscontact.bodies.materials.body import Body
+from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.material import Material
 from viscontact.bodies.materials.strength import onset_ratio
 from viscontact.case.adhesion import AdhesionSection
 from viscontact.case.aliases import with_aliases
 from viscontact.case.allowable import Allowable
 from viscontact.case.friction import FrictionSection
-from viscontact.case.indenters.shapes import Shapes, combined
+from viscontact.case.indenters.shapes import Roller, Shapes, combined
 from viscontact.case.leakage import Leakage
 from viscontact.case.loads.load import AnyLoad
 from viscontact.case.loads.temperature import AnyTemperature
-from viscontact.case.materials.base import Medium
+from viscontact.case.materials.base import INCOMPLETE_END, Medium
 from viscontact.case.materials.layers import AnyBody, Layers
 from viscontact.case.motion import AnyMotion
 from viscontact.case.quantities import Section
@@ -95,6 +99,33 @@ class CaseFile(Section):
         return self
 
     @model_validator(mode="after")
+    def _has_lengths(self) -> CaseFile:
+        bodies = {"material": self.material, "indenter_material": self.indenter_material}
+        for name, given in bodies.items():
+            if not isinstance(given, Medium) or given.ends is None or given.length is not None:
+                continue
+            if name == "material" or self._roller_length is None:
+                raise ValueError(f"{name}.length: {INCOMPLETE_END}")
+        return self
+
+    @property
+    def _roller_length(self) -> float | None:
+        """Total length of a roller that ends [m]; None without one."""
+        if len(self.indenter) != 1 or not isinstance(self.indenter[0], Roller):
+            return None
+        length = self.indenter[0].build().total_length
+        return length if math.isfinite(length) else None
+
+    @property
+    def indenter_body(self) -> Material | Layered | Body | None:
+        """The pressed body; where it ends, that of a roller may leave the length to the roller."""
+        given = self.indenter_material
+        if isinstance(given, Medium) and given.ends is not None and given.length is None:
+            assert self._roller_length is not None  # refused otherwise
+            return given.body_of(self._roller_length)
+        return None if given is None else given.body
+
+    @model_validator(mode="after")
     def _holds_the_load(self) -> CaseFile:
         if self.adhesion is not None:
             _ = self.adhesion.built
@@ -155,7 +186,7 @@ class CaseFile(Section):
     def _require_radius_of_turns(self) -> None:
         """Refuse two rolls whose material returns after a turn, or whose drive has a torque."""
         joint = [shape for shape in self.indenter if getattr(shape, "turns_with_another", False)]
-        own = self.indenter_material.body if self.indenter_material else None
+        own = self.indenter_body
         turns = self.friction is not None or (own is not None and creeps(own))
         if joint and turns and getattr(self.body_motion, "rolling", None):
             raise ValueError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import field
 from typing import Any, Literal, get_args
 
@@ -124,6 +125,18 @@ class Roller(Indenter):
             ended = self.drop(middle) > self.radius
             inside, outside = (inside, middle) if ended else (middle, outside)
         return inside
+
+    @property
+    def total_length(self) -> float:
+        """Length from end to end [m]; inf where a crown continues until the section ends.
+
+        Examples
+        --------
+        >>> Roller(5e-3, 6e-3).total_length, Roller(5e-3, 6e-3, crown_radius=1.0).total_length
+        (0.012, inf)
+        """
+        end = self.line.end(self.half_length)
+        return 2 * end if self.end == end else math.inf
 
     def drop(self, x: ArrayLike) -> Floats:
         """Return how far the generating line has receded, +inf beyond its end [m]."""

@@ -32,6 +32,12 @@ from viscontact.case.quantities import (
     Temperature,
 )
 
+#: What a body that ends lacks without one of its keys.
+INCOMPLETE_END = (
+    "a body that ends has a length and ends; write e.g. 'length: 60 mm' and 'ends: [free, null]', "
+    "or leave both out"
+)
+
 
 def _not_over_time(given: Any) -> Any:
     """Refuse a section, which describes a temperature over time."""
@@ -87,7 +93,9 @@ class Medium(Section):
         "half width beyond a fifth of it warns",
     )
     length: Length | None = Field(
-        default=None, description="of the body along x, where it ends; goes with ends"
+        default=None,
+        description="of the body along x, where it ends; goes with ends. That of a roller when "
+        "left out under indenter_material",
     )
     centre: Offset | None = Field(
         default=None, description="position x of the middle of a body that ends; 0 when left out"
@@ -135,8 +143,12 @@ class Medium(Section):
         """The material, or a body of it that ends."""
         if self.ends is None:
             return self.built
-        assert self.length is not None  # refused otherwise
-        return Body(self.built, self.length, centre=self.centre or 0.0, ends=self.ends)
+        assert self.length is not None  # refused otherwise, or that of a roller
+        return self.body_of(self.length)
+
+    def body_of(self, length: float) -> Body:
+        """A body of the material that ends, of a length along x [m]."""
+        return Body(self.built, length, centre=self.centre or 0.0, ends=self.ends or "free")
 
     @cached_property
     def built(self) -> Material:
@@ -229,16 +241,12 @@ class Medium(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Medium:
         # Errors of the constructors are reported among the problems of the file.
-        if (self.ends is None) != (self.length is None):
-            missing = "length" if self.length is None else "ends"
-            raise ValueError(
-                f"{missing}: a body that ends has a length and ends; write e.g. 'length: 60 mm' "
-                "and 'ends: [free, null]', or leave both out"
-            )
+        if self.ends is None and self.length is not None:
+            raise ValueError(f"ends: {INCOMPLETE_END}")
         given = [key for key in ("scale", "shore_a", "shore_d") if getattr(self, key) is not None]
         if len(given) > 1:
             raise ValueError(f"give {' or '.join(given)}: each determines the stiffness of the law")
         if self.centre is not None and self.ends is None:
             raise ValueError("centre: is that of a body that ends; give 'length' and 'ends', too")
-        _ = self.body
+        _ = self.built if self.ends is None else self.body_of(self.length or 1.0)
         return self

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,12 +10,16 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.cell_borders import is_border
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.indenters import Roller
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
+
+#: Largest difference of the ends of a roller and of its material, relative to its half length.
+SAME = 1e-6
 
 #: Reason why a body between two ends has no approach.
 NO_DATUM = (
@@ -42,9 +47,29 @@ def check_ends(problem: Problem) -> None:
                 raise ValueError(
                     f"{name}.ends: {other} is not available on a body that ends; leave one out"
                 )
+    _check_roller(problem)
     if problem.ends_twice and problem.load.control != "force":
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
+        )
+
+
+def _check_roller(problem: Problem) -> None:
+    """Refuse a roller whose material ends elsewhere than its shape does."""
+    roller, body = problem.indenter, problem.ended_bodies.get("indenter_material")
+    if body is None or not isinstance(roller, Roller):
+        return
+    last = roller.total_length / 2
+    if math.isinf(last):
+        return
+    for plane, kind, side in zip(body.planes, body.ends, (-1, 1), strict=True):
+        if plane is None or kind != "free" or abs(side * plane - last) < SAME * last:
+            continue
+        end, own = (format_quantity(side * each, "m", 6) for each in (last, side * plane))
+        raise ValueError(
+            f"indenter_material.length: the roller ends at x = {end}, and its material at {own}; "
+            f"give it the roller's length, {format_quantity(2 * last, 'm', 6)}, about x = 0, "
+            "or a shape without end there"
         )
 
 
