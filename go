@@ -22,6 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 LOCK = ROOT / "requirements.lock"
 DEMO_LOCK = ROOT / "requirements-demo.lock"  # the part of it that computes and draws
+BUILD_LOCK = ROOT / "requirements-build.lock"  # what compiles wheels in CI
 VENV = ROOT / ".venv"
 STAMP = VENV / "go-stamp"  # written last: without it the environment is incomplete
 LOG = VENV / "go-setup.log"
@@ -154,11 +155,8 @@ def lock(args: list[str]) -> int:
     extras += ["--no-emit-package", "tomlkit"]  # for a command of hatchling that no task calls
     status = status or run([*uv, *extras, *written, DEMO_LOCK.name, *args])
     uv.remove("pyproject.toml")  # what builds wheels in CI: the group alone
-    return status or run([*uv, "--constraint", LOCK.name, *written, BUILD_LOCK, *args])
+    return status or run([*uv, "--constraint", LOCK.name, *written, BUILD_LOCK.name, *args])
 
-
-#: What builds wheels, for CI.
-BUILD_LOCK = ".ci/build-requirements.txt"
 
 #: Choice of versions by `./go compatibility`, in options of uv.
 VERSIONS = {"lowest": "--resolution lowest-direct", "newest": "--prerelease allow"}

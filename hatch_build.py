@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-import sysconfig
+from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -45,18 +45,30 @@ class CoreHook(BuildHookInterface):  # type: ignore[type-arg]
             self.app.display_warning(f"no compiled core: {reason}")
             return
         build_data["force_include"][str(extension)] = f"viscontact/backend/{extension.name}"
+        build_data["force_include"][str(self.licences(extension.parent))] = (
+            f"viscontact-{self.metadata.version}.dist-info/licenses/nanobind/LICENSE"
+        )
         build_data["pure_python"] = False
-        build_data["tag"] = self.tag()
+        build_data["tag"] = self.tag(extension.name)
+
+    def licences(self, folder: Path) -> Path:
+        """Write the licences of the code of others in the binary: nanobind, and its robin map."""
+        files = {path.name: path for path in metadata.files("nanobind") or []}
+        header = files["robin_map.h"].read_text(encoding="utf-8")
+        comment = header[header.index("/*") : header.index("*/")].splitlines()
+        texts = [files["LICENSE"].read_text(encoding="utf-8"), *(line[3:] for line in comment[1:])]
+        written = folder / "LICENSE"
+        written.write_text("\n".join(texts), encoding="utf-8", newline="\n")
+        return written
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Remove what was compiled: it is in the wheel."""
         if self._folder:
             self._folder.cleanup()
 
-    def tag(self) -> str:
+    def tag(self, extension: str) -> str:
         """Return the tag of a wheel: from Python 3.12 on, one fits all later versions."""
         assert isinstance(self.build_config.builder, WheelBuilder)
         tag = self.build_config.builder.get_best_matching_tag()
-        if sys.version_info < (3, 12) or sysconfig.get_config_var("Py_GIL_DISABLED"):
-            return tag
-        return f"cp312-abi3-{tag.rsplit('-', 1)[1]}"
+        is_stable = extension in ("_core.abi3.so", "_core.pyd")  # the second, of Windows
+        return f"cp312-abi3-{tag.rsplit('-', 1)[1]}" if is_stable else tag

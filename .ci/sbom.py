@@ -1,4 +1,4 @@
-"""Bill of materials of a release: what viscontact and its extras need, in the lock's versions.
+"""Bill of materials of a release: what viscontact, its extras and its core need, as in the lock.
 
 Run `.venv/bin/python .ci/sbom.py viscontact.cdx.json`; this is JSON of CycloneDX 1.6 (ECMA-424).
 """
@@ -16,6 +16,8 @@ from typing import Any
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+#: Packages whose code is in the compiled core.
+COMPILED = {"nanobind"}
 LOCK = Path(__file__).parents[1] / "requirements.lock"
 
 
@@ -51,7 +53,7 @@ def licence(package: Distribution) -> str:
 
 def components() -> Iterator[dict[str, Any]]:
     """Components with version, licence and hashes of their files."""
-    names = needed()
+    names = needed() | COMPILED
     for entry in re.split(r"^(?=[a-z0-9])", LOCK.read_text(encoding="utf-8"), flags=re.MULTILINE):
         name, _, rest = entry.partition("==")
         if canonicalize_name(name) not in names:

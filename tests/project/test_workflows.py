@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,10 @@ from returned import some
 
 ROOT = Path(__file__).parents[2]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+BUILD_LOCK = "requirements-build.lock"
+RUN = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
 #: Words of commands that install packages or run code of them.
-RUNS = re.compile(r"\b(go|pip|uv|python|pytest|twine|hatchling)\b|\.ci/run")
+RUNS = re.compile(r"\b(go|pip|uv|python|pytest|twine|hatchling|cibuildwheel)\b|\.ci/run")
 
 
 def unpinned(text: str) -> list[str]:
@@ -121,10 +124,37 @@ def test_every_job_ends_in_time_and_takes_no_text_of_an_event_as_code() -> None:
 def test_every_package_that_ci_installs_has_its_hash() -> None:
     for name, job in some(list(jobs())):
         assert unhashed(commands(job)) == [], name
-    pinned = (ROOT / ".ci" / "conda-requirements.txt").read_text(encoding="utf-8")
-    for entry in some(re.split(r"^(?=[a-z])", pinned, flags=re.MULTILINE)[1:]):
-        assert re.match(r"[\w-]+==[\d.]+ ", entry)
-        assert "--hash=sha256:" in entry
+    for file in (".ci/conda-requirements.txt", ".ci/wheels-requirements.txt", BUILD_LOCK):
+        pinned = (ROOT / file).read_text(encoding="utf-8")
+        for entry in some(re.split(r"^(?=[a-z])", pinned, flags=re.MULTILINE)[1:]):
+            assert re.match(r"[\w-]+==[\w.]+ ", entry)
+            assert "--hash=sha256:" in entry
+
+
+def test_what_compiles_wheels_has_its_hash_and_is_in_the_lock() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    settings = project["tool"]["cibuildwheel"]
+    assert unhashed(settings["before-build"]) == []
+    assert settings["before-build"].endswith(f"{{project}}/{BUILD_LOCK}")
+    assert "--no-build-isolation" in settings["build-frontend"]["args"]
+    compiling, locked = entries(BUILD_LOCK), entries("requirements.lock")
+    for need in [*project["build-system"]["requires"], *project["dependency-groups"]["build"]]:
+        assert any(entry.startswith(re.split(r"[<>=]", need)[0] + "==") for entry in compiling)
+    assert compiling <= locked
+
+
+def test_core_and_numpy_are_both_tried_on_all_systems() -> None:
+    steps = workflow(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["test"]["steps"]
+    tried = {step["env"]["VISCONTACT_CORE"]: step["run"] for step in steps if "env" in step}
+    assert tried["required"] == "python go test"
+    assert tried["off"].startswith("python go test tests/backend tests/mechanics")
+    assert any("VISCONTACT_CORE=off" in line and "tests/mechanics" in line for line in RUN)
+
+
+def entries(lock: str) -> set[str]:
+    """Entries of a lock, with their hashes."""
+    read = (ROOT / lock).read_text(encoding="utf-8")
+    return set(re.split(r"^(?=[a-z])", read, flags=re.MULTILINE)[1:])
 
 
 @pytest.mark.parametrize(
@@ -137,9 +167,15 @@ def test_an_install_without_hashes_is_found(command: str) -> None:
 def test_packages_are_built_apart_from_where_they_are_published() -> None:
     release = workflow(ROOT / ".github" / "workflows" / "release.yml")["jobs"]
     assert release["publish"]["needs"] == "attest"
-    assert release["attest"]["needs"] == "build"
-    assert "permissions" not in release["build"]
+    assert release["attest"]["needs"] == ["build", "wheels"]
+    for job in ("build", "wheels"):
+        assert "permissions" not in release[job]
     assert "go build" in commands(release["build"])
+    assert "cibuildwheel" in commands(release["wheels"])
+    for job in ("attest", "publish", "release"):  # all of them, or none is published
+        taken = [step["with"] for step in release[job]["steps"] if "download" in str(step)]
+        assert {"name": "packages", "path": "dist"} in taken
+        assert {"pattern": "wheels-*", "path": "dist", "merge-multiple": True} in taken
     attested = [step["with"] for step in release["attest"]["steps"] if "attest@" in step["uses"]]
     assert [given.get("sbom-path") for given in attested] == [None, "viscontact.cdx.json"]
 
