@@ -16,6 +16,7 @@ from viscontact.drawing.plotly.run_figures import run_figures
 from viscontact.drawing.svg.html import element
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.creepage_table import creepage_table
+from viscontact.report.end_chapter import end_chapter
 from viscontact.report.html_page import html_page
 from viscontact.report.leak_chapter import leak_chapter
 from viscontact.report.slip_chapter import slip_chapter
@@ -126,6 +127,7 @@ def run_chapters(ds: xr.Dataset, shown: Mapping[FigureChapter, Iterable[Element]
     chapters = (
         ("allowable", "Allowable values", verdict_chapter(ds)),
         ("pressure", "Pressure", shown["pressure"]),
+        ("ends", "Ends of the bodies", end_chapter(ds)),
         ("spots", "Contact spots", result_chapters.spots_chapter(ds)),
         ("leakage", "Leakage", leak_chapter(ds)),
         ("stress", "Stress below the surface", stress_chapter(ds)),

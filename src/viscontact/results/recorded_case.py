@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.results.descriptions import parse_case, stored_class
 from viscontact.units.axis_flags import AxisFlags
@@ -30,6 +31,29 @@ def is_layered(results: Result, part: str = "material") -> bool:
 def has_ends(results: Result, part: str = "material") -> bool:
     """True if a body of a result, the pressed one or the half-space, ends along x."""
     return (case_of(results).get(part) or {}).get("type") == "Body"
+
+
+@dataclass(frozen=True)
+class RecordedEnd:
+    """End of a body of a result at a plane across x."""
+
+    part: str  # "material" or "indenter_material"
+    place: float  # [m]
+    kind: str  # "free" or "held"
+
+
+def recorded_ends(results: Result) -> tuple[RecordedEnd, ...]:
+    """Ends of the bodies of a result, of the half-space first, that at -x before that at +x."""
+    found = []
+    for part in ("material", "indenter_material"):
+        body = case_of(results).get(part) or {}
+        if body.get("type") != "Body":
+            continue
+        for side, kind in zip((-1, 1), body["ends"], strict=True):
+            if kind is not None:
+                place = float(body["centre"]) + side * float(body["length"]) / 2
+                found.append(RecordedEnd(part, place, str(kind)))
+    return tuple(found)
 
 
 def recorded_poisson_ratio(results: xr.Dataset, part: str = "material") -> float:

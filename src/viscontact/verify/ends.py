@@ -15,8 +15,10 @@ from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.free_end import end_functions, image_density
+from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.simulation.transient.state_generator import march
-from viscontact.verify.case import Case, Comparison, Quantity, history
+from viscontact.verify.case import Case, Comparison, Quantity, history, single
 
 _MODULUS, _PRESSURE = 1e9, 1e6  # E*, and that on the rectangle [Pa]
 _HALF_LENGTH, _HALF_WIDTH, _MIDDLE = 0.5e-3, 0.5e-3, 1e-3  # of the rectangle, from the edge [m]
@@ -60,7 +62,72 @@ def _equal_lengths(cells: int) -> tuple[Comparison, ...]:
     )
 
 
+def _all_images(depth: int) -> tuple[Comparison, ...]:
+    """Sum of all images of a line load near the corner, over the load."""
+    panels = LogPanels.over(1e-12, 10.0, 2.5)
+    place = int(np.searchsorted(panels.places, 10.0**-depth))
+    image = image_density(panels, 0.5)[:, place]
+    return (single(1 / (1 - 4 / math.pi**2), 1 + float(panels.weights @ image)),)
+
+
+#: Displacement added by a free end to that of the mirrored half-space at distances of 0, 0.5 and 2
+#: from it, under a unit line load cos y at the distance 1, over compliance, by finite elements.
+PLACES = (0.0, 0.5, 2.0)
+BY_ELEMENTS = {
+    0.0: (-0.113470, 0.002447, 0.005293),
+    0.3: (0.046222, 0.086574, 0.017144),
+    0.45: (0.258236, 0.213274, 0.043785),
+}
+
+
+def _waves(_: int) -> tuple[Comparison, ...]:
+    """Displacement near a free end under a wave of line load, for three Poisson's ratios."""
+    found = []
+    for ratio, expected in BY_ELEMENTS.items():
+        functions = end_functions(ratio)
+        ours = functions.at(np.array(PLACES)) @ functions.at(np.array(1.0))
+        found.append(history(np.array(expected), ours))
+    return tuple(found)
+
+
+def _far_away(radii: int) -> tuple[Comparison, ...]:
+    """What a free end adds below a pressure far away, over that at twice the distance."""
+    grid = Grid((8, 8), (2e-4, 2e-4))
+    pressure = np.full(grid.shape, _PRESSURE)
+    half_space = ContactDomain(grid).convolution.apply(pressure)
+    added = []
+    for distance in (radii * 1e-4, 2 * radii * 1e-4):
+        body = EndedResponse(poisson_ratio=0.3, planes=(-distance, None), free=(True, False))
+        near = ContactDomain(grid, response=body).convolution.apply(pressure)
+        added.append(float((near - half_space).mean()))
+    return (single(2.0, added[0] / added[1]),)
+
+
 CASES: tuple[Case, ...] = (
+    Case(
+        "images of a line load near an edge",
+        "Michell 1900, Hetényi 1960",
+        (Quantity("total load over the load", "1", 1e-4, 2e-5, has_order=False),),
+        (3, 5, 7),
+        _all_images,
+    ),
+    Case(
+        "waves of line load beside a free end",
+        "finite elements",
+        tuple(
+            Quantity(f"added displacement over compliance, ν = {ratio:g}", "1", 5e-5, 5e-5, False)
+            for ratio in BY_ELEMENTS
+        ),
+        (1, 2, 3),
+        _waves,
+    ),
+    Case(
+        "pressure far from a free end",
+        "similarity",
+        (Quantity("effect of the end over that at twice the distance", "1", 2e-3, 2e-4),),
+        (8, 16, 32),
+        _far_away,
+    ),
     Case(
         "edge of an incompressible body that ends",
         "Hetényi 1960",

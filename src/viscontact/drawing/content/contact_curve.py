@@ -14,8 +14,8 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.compared_runs import Runs, runs_of
 from viscontact.drawing.content.notes import peak_note
 from viscontact.drawing.content.ordered_names import inks_of
-from viscontact.drawing.content.panel import Axis, Curve, Ink, Panel
-from viscontact.results.recorded_case import across_period
+from viscontact.drawing.content.panel import Axis, Curve, Ink, Mark, Panel
+from viscontact.results.recorded_case import across_period, recorded_ends
 from viscontact.results.recorded_motion import contact_edges, direction_at, motion_axis
 from viscontact.results.snapshots import Snapshot, labels_of, take_snapshots
 from viscontact.results.variables import MESH_DEPENDENT
@@ -85,6 +85,7 @@ def contact_panels(results: Runs, curve: ContactCurve, times: ArrayLike | None) 
                 _curve(snapshot, curve, name, ink)
                 for (name, snapshot), ink in zip(snapshots.items(), inks, strict=True)
             ),
+            marks=_marks(runs.values(), curve, x.limits),
             title=_instants_label(snapshots),
             note=_note(runs.values(), [at.time], curve),
         )
@@ -102,7 +103,18 @@ def _at_instants(run: xr.Dataset, curve: ContactCurve, times: ArrayLike | None) 
     if curve.marks_edges and motion_axis(run) == curve.along:
         curves += [edge for snapshot, _, ink in each for edge in _edges(run, snapshot, curve, ink)]
         note = "; ".join(filter(None, ("● leading, ○ trailing edge", note)))
-    return Panel(*_axes(snapshots, curve), tuple(curves), note=note)
+    x, y = _axes(snapshots, curve)
+    return Panel(x, y, tuple(curves), marks=_marks([run], curve, x.limits), note=note)
+
+
+def _marks(
+    runs: Iterable[xr.Dataset], curve: ContactCurve, limits: tuple[float, float] | None
+) -> tuple[Mark, ...]:
+    """Lines at the ends of the bodies, along x and within limits [m]."""
+    if curve.along != "x" or limits is None:
+        return ()
+    ends = dict.fromkeys(end.place for run in runs for end in recorded_ends(run))
+    return tuple(Mark(place, look="dotted") for place in ends if limits[0] < place < limits[1])
 
 
 def _curve(snapshot: Snapshot, curve: ContactCurve, name: str, ink: Ink) -> Curve:

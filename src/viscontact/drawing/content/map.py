@@ -19,6 +19,7 @@ from viscontact.drawing.content.panel import Axis, Units
 from viscontact.drawing.content.rim import rim_curves
 from viscontact.drawing.content.scale import ColourScale, pressure_scale
 from viscontact.drawing.content.window import Window, window_around
+from viscontact.results.recorded_case import RecordedEnd, recorded_ends
 from viscontact.results.recorded_motion import body_axis_at, direction_at, motion_axis
 from viscontact.results.shown_rows import shown_rows
 from viscontact.results.snapshots import Snapshot, field_times
@@ -87,6 +88,7 @@ class Maps:
     stored: int = 0  # number of instants with fields in the result, if it is a single one
     motion: str | None = None  # axis of a motion of a single result
     reference: Maps | None = None  # compared with them
+    ends: tuple[RecordedEnd, ...] = ()  # of the bodies of a single result
 
     @property
     def snapshots(self) -> tuple[Snapshot, ...]:
@@ -215,7 +217,8 @@ def maps_at(results: Runs, times: ArrayLike | None, figure: str, *, count: int =
     window = window_around([each.snapshot for each in maps])
     if len(runs) > 1:
         return Maps(maps, window)
-    return Maps(maps, window, field_times(runs[0], figure).size, motion_axis(runs[0]))
+    stored, motion = field_times(runs[0], figure).size, motion_axis(runs[0])
+    return Maps(maps, window, stored, motion, ends=recorded_ends(runs[0]))
 
 
 def maps_over(run: xr.Dataset) -> Maps:

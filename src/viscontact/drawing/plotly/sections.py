@@ -71,11 +71,19 @@ def _curves(
             parts.append({"x": length(lines.edges[index] or []).tolist()})
         frames.append(_frame(index, len(thin), parts, lines.name, titles[index]))
     start = frames[maps.start]
+    ends = [end.place for end in maps.ends if lines.along == "x"]
+    dotted = {"color": look.faint, "width": 1.2, "dash": "dot"}
+    marks: list[Part] = [
+        {"type": "line", "x0": at, "x1": at, "y0": 0, "y1": 1, "yref": "paper", "line": dotted}
+        for at in length(np.array(ends)).tolist()
+    ]
+    shapes: Part = {"shapes": marks} if marks else {}
     return drawn(
         [*thin, *(style | part for style, part in zip(styles, start["data"], strict=True))],
         look,
         **start["layout"],
         frames=frames,
+        **shapes,
         xaxis={"title": {"text": length.label(lines.along)}, "range": position[[0, -1]].tolist()},
         yaxis={"title": {"text": quantity.label}, "rangemode": "tozero"},
     )
