@@ -115,13 +115,17 @@ class ForceHistory(PiecewiseHistory):
         """
         instants = finite_array("times", times, "s")
         force = self._interpolate(self.force, instants, side)
-        least = NEGLIGIBLE * float(np.abs(self.force).max())
+        least = NEGLIGIBLE * self._largest_size
         counts = self._begun(instants, side) & (np.abs(force) >= least)
         return np.where(counts, force, 0.0)
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> Floats:
         """Return the force at many instants [N]; as `force_at`."""
         return self.force_at(times, side=side)
+
+    @cached_property
+    def _largest_size(self) -> float:
+        return float(np.abs(self.force).max())
 
     @cached_property
     def largest_force(self) -> float:

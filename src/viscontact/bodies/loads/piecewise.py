@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from bisect import bisect_left, bisect_right
 from dataclasses import fields
 from functools import cached_property
 from typing import Any
@@ -155,6 +156,8 @@ class PiecewiseHistory(LoadHistory):
         """Values at `times`, held before the first and after the last point."""
         if isinstance(values, float):
             return np.full(times.shape, values)
+        if times.ndim == 0:  # as below, in plain numbers
+            return np.asarray(self._value_at(values, float(times), side))
         reached = np.searchsorted(self.times, times, side=history_points.side_of_jump(side))
         i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
         span = self.times[j] - self.times[i]
@@ -164,7 +167,29 @@ class PiecewiseHistory(LoadHistory):
         nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
         return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
 
+    def _value_at(self, values: Floats, time: float, side: str) -> float:
+        """A value at one time, as of `_interpolate`."""
+        reached = self._reached(time, side)
+        i, j = max(reached - 1, 0), min(reached, self.times.size - 1)
+        begin, end = self._instants[i], self._instants[j]
+        part = (time - begin) / (end - begin) if end > begin else 0.0
+        first, last = float(values[i]), float(values[j])
+        nearer, offset = (first, part) if part < 0.5 else (last, part - 1)
+        return nearer + (last - first) * offset
+
+    def _reached(self, time: float, side: str) -> int:
+        """Number of points up to a time, those of a jump at it by its side."""
+        right = history_points.side_of_jump(side) == "right"
+        return (bisect_right if right else bisect_left)(self._instants, time)
+
+    @cached_property
+    def _instants(self) -> list[float]:
+        found: list[float] = self.times.tolist()
+        return found
+
     def _begun(self, times: Floats, side: str) -> Bools:
+        if times.ndim == 0:
+            return np.asarray(self._reached(float(times), side) > 0)
         return np.asarray(
             np.searchsorted(self.times, times, side=history_points.side_of_jump(side)) > 0
         )
