@@ -187,6 +187,7 @@ BENCHMARKS = {
     "error-bars": "error_bars.py",
     "temperature": "temperature.py",
     "indentation-intervals": "indentation_intervals.py",
+    "inner-loops": "inner_loops.py",
 }
 
 TASKS = {

@@ -1,4 +1,4 @@
-#include "core.hpp"
+#include "strided.hpp"
 
 #include <cmath>
 #include <limits>
@@ -35,8 +35,8 @@ struct Largest {
 }  // namespace
 
 template <typename Real>
-double largest(const Field<Real>& given) {
-  Field<Real> field = given;
+double largest(const Strided<Real>& given) {
+  Strided<Real> field = given;
   // Along the axis on which neighbours are near.
   if (std::abs(field.row_step) < std::abs(field.column_step)) {
     std::swap(field.rows, field.columns);
@@ -53,7 +53,7 @@ double largest(const Field<Real>& given) {
   return result.value();
 }
 
-template double largest(const Field<float>&);
-template double largest(const Field<double>&);
+template double largest(const Strided<float>&);
+template double largest(const Strided<double>&);
 
 }  // namespace viscontact

@@ -1,10 +1,160 @@
-"""Compiled twins of functions of the package; sources in ``src/core``."""
+"""Compiled inner loops of the package; sources in ``src/core``."""
 
-from viscontact.backend.arrays import Numbers
+from collections.abc import Sequence
+
+from viscontact.backend.arrays import Bools, Floats, Numbers, Singles
 
 #: Counts changes of what functions take, return or mean.
 INTERFACE: int
 #: Hash of the sources that it was compiled of.
 SOURCES: str
 
+Triple = tuple[float, float, float]
+Free = tuple[bool, bool, bool]
+Matrix = tuple[Triple, Triple, Triple]
+Trends = tuple[Floats, Bools, Floats, Bools, Bools]
+
+class Plane:
+    """Cells of a patch."""
+
+    def __init__(
+        self,
+        x: Floats,
+        y: Floats,
+        cell_size: tuple[float, float],
+        mirrored: tuple[bool, bool],
+        threads: int,
+        /,
+    ) -> None: ...
+
+class EdgeLaw:
+    """Law of the gaps or pressures beside a straight edge."""
+
+    def __init__(
+        self,
+        threshold: float,
+        growth: tuple[float, float],
+        slopes: Sequence[float],
+        offsets: Sequence[float],
+        /,
+    ) -> None: ...
+
+# The search: see `viscontact.mechanics.contact.passes.contract`.
+def measure(
+    plane: Plane,
+    pressure: Floats,
+    displacement: Floats,
+    open_gap: Floats,
+    compliance: float,
+    motion: Triple,
+    free: Free,
+    unit: float,
+    contact: Bools,
+    gap: Numbers,
+    step: tuple[Floats, Singles, Singles, float, float] | None,
+    /,
+) -> tuple[Triple, Matrix, float, float]: ...
+def release(
+    plane: Plane, active: Bools, last: Bools, gap: Singles, free: Free, /
+) -> tuple[int, int, Matrix]: ...
+def follow(stiffness: Singles, active: Bools, last: Bools, near: Singles, /) -> None: ...
+def direct(
+    plane: Plane,
+    found: Singles,
+    direction: Singles,
+    residual: Singles,
+    last_residual: Singles,
+    active: Bools,
+    stiffness: Singles,
+    correction: float,
+    shift: float,
+    inverse: Floats,
+    last_slope: float,
+    changed: bool,
+    /,
+) -> float: ...
+def trial(
+    plane: Plane,
+    pressure: Floats,
+    direction: Singles,
+    length: float,
+    ahead: Floats,
+    targets: Triple,
+    free: Free,
+    cell_area: float,
+    arm: float,
+    scale: float,
+    step: Singles,
+    /,
+) -> bool: ...
+def balance(
+    plane: Plane,
+    pressure: Floats,
+    targets: Triple,
+    free: Free,
+    cell_area: float,
+    arm: float,
+    /,
+) -> bool: ...
+def difference(
+    plane: Plane, ahead: Floats, pressure: Floats, scale: float, step: Singles, /
+) -> None: ...
+def inner(
+    plane: Plane, field: Singles, first: Singles, second: Singles, /
+) -> tuple[float, float]: ...
+def move(
+    plane: Plane,
+    pressure: Floats,
+    displacement: Floats,
+    step: Singles,
+    change: Singles,
+    length: float,
+    /,
+) -> float: ...
+def sums(plane: Plane, values: Floats, /) -> Triple: ...
+
+# Between steps: see `viscontact.backend.team` and `viscontact.mechanics.contact.recession`.
+def weighted_sum(
+    total: Floats, weights: list[float], fields: list[Floats], threads: int, /
+) -> None: ...
+def mean_change(where: Bools, late: Floats, early: Floats | None, threads: int, /) -> float: ...
+def follow_trends(
+    gap: Floats,
+    pressure: Floats,
+    in_contact: Bools,
+    error: float,
+    turns: float,
+    before: Trends,
+    after: Trends,
+    threads: int,
+    /,
+) -> None: ...
+def unfold(part: Floats, whole: Floats, /) -> None: ...
+def unfold_flags(part: Bools, whole: Bools, /) -> None: ...
+
+# The rim: see `viscontact.mechanics.contact.rim` and `rim_crossings`.
+def locate_rim(
+    contact: Bools,
+    gap: Floats,
+    gap_x: EdgeLaw,
+    gap_y: EdgeLaw,
+    pressure_x: EdgeLaw,
+    pressure_y: EdgeLaw,
+    recession: tuple[Floats, Bools, Bools, Bools] | None,
+    ends: tuple[Floats, Floats] | None,
+    along_x: Floats,
+    along_y: Floats,
+    /,
+) -> None: ...
+def enclosed_squares(
+    contact: Bools, along_x: Floats, along_y: Floats, segment: float, /
+) -> float: ...
+def rim_extents(
+    contact: Bools, along_x: Floats, along_y: Floats, /
+) -> tuple[float, float, int, int]: ...
+def chords(contact: Bools, /) -> tuple[int, int, int]: ...
+def spans(cells: Bools, /) -> tuple[int, int, int, int]: ...
+
+# Transforms: see `viscontact.backend.transforms`.
+def filter(spectrum: Numbers, symbol: Numbers, axis: int, /) -> None: ...
 def largest(array: Numbers) -> float: ...

@@ -14,6 +14,7 @@ The environment variable ``VISCONTACT_CORE`` may be ``off``, to compute with Num
 from __future__ import annotations
 
 import os
+from types import ModuleType
 
 from viscontact.backend.errors import CoreError
 
@@ -21,23 +22,24 @@ from viscontact.backend.errors import CoreError
 VARIABLE = "VISCONTACT_CORE"
 CHOICES = ("", "off", "required")
 #: Counts changes of what functions of the core take, return or mean, as `INTERFACE` there.
-INTERFACE = 1
+INTERFACE = 2
 
 _choice = os.environ.get(VARIABLE, "")
 if _choice not in CHOICES:
     raise CoreError(f"{VARIABLE} must be 'off', 'required' or not set, got {_choice!r}")
 
-#: Why there is no core; empty if there is one.
+#: The compiled core, None without one; and why there is none.
+core: ModuleType | None = None
 absent = ""
 try:
     if _choice == "off":
         raise ImportError(f"{VARIABLE} is off")
-    import viscontact.backend._core as core
+    from viscontact.backend import _core
 
-    if core.INTERFACE != INTERFACE:  # a checkout was renewed, and its core not yet
+    if _core.INTERFACE != INTERFACE:  # a checkout was renewed, and its core not yet
         raise ImportError("it was built of other sources")
+    core = _core
 except ImportError as _error:
-    core = None  # type: ignore[assignment]
     # Systems name the file first, and then what is wrong with it.
     absent = str(_error).rsplit(": ", 1)[-1]
     if isinstance(_error, ModuleNotFoundError):
@@ -47,6 +49,46 @@ except ImportError as _error:
             f"{VARIABLE} is 'required', and there is no compiled core: {absent};"
             " unset it to compute with NumPy"
         ) from _error
+
+
+#: Names of what computes inner loops, as results and records of runs state them.
+NUMPY, COMPILED = "numpy", "compiled"
+
+
+def fastest_inner_loops() -> str:
+    """Return the name of the fastest inner loops that are there: "compiled", or "numpy".
+
+    Examples
+    --------
+    >>> fastest_inner_loops() in {"compiled", "numpy"}
+    True
+    """
+    return COMPILED if core else NUMPY
+
+
+def core_by(name: str) -> ModuleType | None:
+    """Return the core for inner loops of a name, None for those of NumPy.
+
+    The two agree to rounding, not to the bit, so that a run keeps those that it began with.
+
+    Raises
+    ------
+    ValueError
+        If there is no core, or the name is unknown.
+
+    Examples
+    --------
+    >>> core_by("numpy") is None
+    True
+    """
+    if name not in (NUMPY, COMPILED):
+        raise ValueError(f"no inner loops are called {name!r}; known are {NUMPY} and {COMPILED}")
+    if name == COMPILED and core is None:
+        raise ValueError(
+            f"there is no compiled core: {absent}; install viscontact from a wheel, or where there "
+            f"is a C++ compiler, and do not set {VARIABLE}=off"
+        )
+    return core if name == COMPILED else None
 
 
 def kernels() -> str:

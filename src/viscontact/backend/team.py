@@ -11,11 +11,12 @@ import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
+from types import ModuleType
 from typing import Any, TypeVar
 
 import numpy as np
 
-from viscontact.backend.arrays import Numbers
+from viscontact.backend.arrays import Bools, Field, Floats, Numbers
 from viscontact.backend.transforms import largest_of
 
 #: Size of the lines that are worked on at once [bytes].
@@ -40,8 +41,9 @@ class Team:
     [0, 2, 3, 4]
     """
 
-    def __init__(self, threads: int = 1) -> None:
-        self.threads = threads
+    def __init__(self, threads: int = 1, core: ModuleType | None = None) -> None:
+        #: `core` has the passes that are compiled; None: all are in NumPy.
+        self.threads, self.core = threads, core
 
     @cached_property
     def _pool(self) -> ThreadPoolExecutor:
@@ -80,6 +82,60 @@ class Team:
             row.shape = (row.size,)
         blocks = blocks_of(rows[0].size, rows[0].itemsize)
         self.each(lambda block: work(*(row[block] for row in rows)), blocks)
+
+    def weighted_sum(
+        self, total: Floats, weights: Sequence[float], fields: Sequence[Floats]
+    ) -> Floats:
+        """Write a weighted sum of contiguous fields to a field, which may be the first of them.
+
+        >>> Team().weighted_sum(np.empty(2), [2.0, 1.0], [np.ones(2), np.arange(2.0)]).tolist()
+        [2.0, 3.0]
+        """
+        if self.core is not None:
+            self.core.weighted_sum(total, list(map(float, weights)), list(fields), self.threads)
+            return total
+
+        def add(found: Floats, first: Floats, *others: Floats) -> None:
+            np.multiply(weights[0], first, out=found)
+            for weight, other in zip(weights[1:], others, strict=True):
+                found += other if weight == 1.0 else weight * other
+
+        self.each_part(add, total, *fields)
+        return total
+
+    def mean_change(self, where: Bools, late: Floats, early: Floats | None = None) -> float:
+        """Mean absolute difference of two fields over some cells, or of one to zero; 0 for none.
+
+        >>> Team().mean_change(np.ones((1, 2), bool), np.array([[1.0, -3.0]]))
+        2.0
+        """
+        if self.core is not None:
+            return float(self.core.mean_change(where, late, early, self.threads))
+
+        def sums(rows: slice) -> tuple[int, float]:
+            here = late[rows] if early is None else late[rows] - early[rows]
+            cells = where[rows]
+            return int(np.count_nonzero(cells)), float(np.abs(here).sum(where=cells))
+
+        counts, totals = zip(*self.each(sums, blocks_of(len(late), late[:1].nbytes)), strict=True)
+        return sum(totals) / sum(counts) if any(counts) else 0.0
+
+    def unfold(self, field: Field, mirrored: tuple[bool, bool]) -> Field:
+        """Field with its mirror images before the first row, column, or both; itself without any.
+
+        >>> Team().unfold(np.array([[1.0, 2.0]]), (False, True)).tolist()
+        [[2.0, 1.0, 1.0, 2.0]]
+        """
+        if self.core is not None and any(mirrored):
+            unfold = self.core.unfold_flags if field.dtype == bool else self.core.unfold
+            shape = [count * (1 + even) for count, even in zip(field.shape, mirrored, strict=True)]
+            whole = np.empty(shape, field.dtype)
+            unfold(field, whole)
+            return whole
+        for axis in (0, 1):
+            if mirrored[axis]:
+                field = np.concatenate([np.flip(field, axis), field], axis)
+        return field
 
 
 def order_of(parts: Sequence[Numbers], number: np.dtype[Any], team: Team) -> float:

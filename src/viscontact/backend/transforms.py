@@ -12,6 +12,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 import scipy  # its transforms are imported at their first use
 
+from viscontact.backend import compiled
 from viscontact.backend.arrays import Numbers
 
 try:
@@ -275,7 +276,32 @@ def largest_of(field: Field) -> float:
     >>> largest_of(np.array([1e-99, -4e-99]))
     4e-99
     """
+    if compiled.core is not None and field.dtype.kind == "f":
+        return float(compiled.core.largest(field))
     return max(float(field.max()), -float(field.min()))
+
+
+def multiply_by_even(spectrum: Field, symbol: Numbers, axis: int) -> None:
+    """Multiply a spectrum in place by a symbol, of which half may be given along an axis.
+
+    The others of its entries are mirror images, as those of an even function.
+
+    Examples
+    --------
+    >>> spectrum = np.ones((1, 4))
+    >>> multiply_by_even(spectrum, np.array([[1.0, 2.0, 3.0]]), axis=1); spectrum.tolist()
+    [[1.0, 2.0, 3.0, 2.0]]
+    """
+    if compiled.core is not None and symbol.dtype.kind == "f" and spectrum.strides[1] > 0:
+        compiled.core.filter(spectrum, symbol, axis)
+        return
+    known, length = symbol.shape[axis], spectrum.shape[axis]
+    lines, mirrored = [slice(None)] * 2, [slice(None)] * 2
+    lines[axis] = slice(known)
+    spectrum[tuple(lines)] *= symbol
+    if known < length:
+        lines[axis], mirrored[axis] = slice(known, None), slice(length - known, 0, -1)
+        spectrum[tuple(lines)] *= symbol[tuple(mirrored)]
 
 
 def fill_of_order(size: float, block: Field, field: Field) -> None:

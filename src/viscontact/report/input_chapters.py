@@ -124,6 +124,7 @@ def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
         lines[0] = ("Computed by", f"{lines[0][1]}, {_effort(ds)}")
     if "transforms" in ds.attrs:
         lines.append(("Fourier transforms", str(ds.attrs["transforms"])))
+        lines.append(("inner loops", str(ds.attrs.get("inner_loops", "numpy"))))
     lines.append(
         (
             "Page written by",

@@ -55,8 +55,12 @@ class Setup(Protocol):
     def transforms(self) -> str:
         """Library of the Fourier transforms."""
 
-    def with_transforms(self, library: str) -> Self:
-        """Return the run with another library; ValueError if it is not installed."""
+    @property
+    def inner_loops(self) -> str:
+        """What computes inner loops: "compiled", or "numpy"."""
+
+    def with_libraries(self, transforms: str, inner_loops: str) -> Self:
+        """Return the run with other libraries; ValueError if they are not installed."""
 
 
 OfSetup = TypeVar("OfSetup", bound=Setup)
@@ -272,9 +276,9 @@ class Analysis(ABC, Generic[OfSetup, OfStates]):
     def course(self) -> list[tuple[str, str]]:
         """Return what is computed, as rows of name and value."""
 
-    def with_transforms(self, library: str) -> Self:
-        """Return the run with a library of transforms; ValueError if it is not installed."""
-        return replace(self, setup=self.setup.with_transforms(library))
+    def with_libraries(self, transforms: str, inner_loops: str) -> Self:
+        """Return the run with other transforms and inner loops; ValueError if not installed."""
+        return replace(self, setup=self.setup.with_libraries(transforms, inner_loops))
 
 
 def plain_case(

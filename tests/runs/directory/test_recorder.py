@@ -18,7 +18,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.backend import transforms
+from viscontact.backend import compiled, transforms
 from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.mechanics.problem.problem import Problem
@@ -399,7 +399,7 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
 def test_a_run_stays_with_the_transforms_it_was_begun_with(
     recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    run = recorded.run.with_transforms("scipy")
+    run = recorded.run.with_libraries("scipy", "numpy")
     begun = Recorder(dataclasses.replace(recorded, run=run))
     next(iter(begun.steps()))
     begun.close()
@@ -421,6 +421,36 @@ def test_a_run_whose_transforms_are_gone_is_not_continued(
     save_checkpoint(path, saved)
     monkeypatch.setattr(transforms, "ducc0", None)
     with pytest.raises(ValueError, match=r"used the Fourier transforms of ducc0.*fast"):
+        Recorder.resume(recorded)
+
+
+@pytest.mark.skipif(compiled.core is None, reason="no compiled core")
+def test_a_run_stays_with_the_inner_loops_it_was_begun_with(recorded: Recorded) -> None:
+    run = recorded.run.with_libraries(recorded.run.setup.transforms, "numpy")
+    begun = Recorder(dataclasses.replace(recorded, run=run))
+    next(iter(begun.steps()))
+    begun.close()
+    faster = sphere(recorded.directory)
+    assert faster.run.setup.inner_loops == "compiled"
+    finish(Recorder.resume(faster))
+    resumed = vc.open_results(recorded.directory)
+    assert resumed.attrs["inner_loops"] == "numpy"
+    (directory := recorded.directory.parent / "whole").mkdir()
+    whole = Recorder(dataclasses.replace(sphere(directory), run=run))
+    finish(whole)
+    np.testing.assert_array_equal(resumed.pressure, vc.open_results(directory).pressure)
+
+
+def test_a_run_whose_compiled_core_is_gone_is_not_continued(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = Recorder(recorded)
+    next(iter(begun.steps()))
+    begun.close()
+    path = recorded.directory / STATE_NAME
+    save_checkpoint(path, dataclasses.replace(load_checkpoint(path), inner_loops="compiled"))
+    monkeypatch.setattr(compiled, "core", None)
+    with pytest.raises(ValueError, match=r"used .* compiled inner loops.*no compiled core"):
         Recorder.resume(recorded)
 
 

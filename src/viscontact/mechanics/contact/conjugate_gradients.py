@@ -12,8 +12,8 @@ The method follows Polonsky & Keer (1999), Wear 231, 206, and differs from it in
 5. Where a step would leave cells in tension, the trial pressure is first cut off and rebalanced,
    and the step is taken straight towards that: one convolution, where cutting afterwards takes two.
 
-Passes over the fields go through blocks of rows (`RigidPlane.each`), and work in a few fields that
-are kept. Residual and directions are in single precision, as the operators of the search are: the
+What is done cell by cell are the patch's `SearchPasses`, which work in a few fields that are kept.
+Residual and directions are in single precision, as the operators of the search are: the
 residual as a part of the largest displacement, so that it is of order one in any units. Pressure
 and displacement, which the steps are added to, are in double precision, and so are all sums that
 restore a balance. The comments in `BoundedCG` number the steps of an iteration:
@@ -27,17 +27,14 @@ restore a balance. The comments in `BoundedCG` number the steps of an iteration:
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats, Singles
+from viscontact.backend.arrays import Floats, Singles
 from viscontact.mechanics.contact.contact_residual import ContactResidual, contact_residual
+from viscontact.mechanics.contact.passes.contract import StepAhead
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
-from viscontact.mechanics.contact.rigid_balance import RigidPlane, added, balance
-from viscontact.mechanics.contact.rim_stiffness import RimStiffness
+from viscontact.mechanics.contact.rim_stiffness import CORRECTION, RimStiffness
 from viscontact.mechanics.contact.winkler import project_onto_balance
 from viscontact.mechanics.halfspace.spectral import PeriodicConvolution
 
@@ -79,8 +76,9 @@ class BoundedCG:
         self._direction, self._spare = np.zeros(shape, single), np.empty(shape, single)
         self._change = np.empty(shape, single)  # unit displacement of a step [-]
         self._ahead = np.empty(shape)  # pressure to step towards [Pa]
-        #: Step of known unit displacement that is still to be taken, on a block of rows.
-        self._next_step: Callable[[RigidPlane], None] | None = None
+        self._passes = patch.passes
+        #: Taken while the residual is measured, which saves a pass over the iterate.
+        self._next_step: StepAhead | None = None
         self._rim_stiffness = RimStiffness(patch)
         self._slope = 0.0
         self._length = INITIAL_STEP_LENGTH
@@ -112,74 +110,31 @@ class BoundedCG:
         """Steps 2 to 5: one conjugate-gradient iteration from a measured residual."""
         active, residual = self._next_active, self._next_residual
         # Step 2: release the cells that the body overlaps, and precondition.
-        inverse = checked.inverse_gram
-        if any(self.patch.plane.each(self._release)):
-            inverse = self.patch.plane.inverse_gram(active, self.problem.constraints.free)
-        changed = not np.array_equal(active, self._active)
+        given = active, self._active, residual
+        changed, inverse = self._passes.release(*given, self.problem.constraints)
         if changed:
-            self._rim_stiffness.follow(active, self._active, self._spare)
+            self._rim_stiffness.follow(active, self._active, changed, self._spare)
         found = self.patch.preconditioner.apply(residual, into=self._spare)
-        self._rim_stiffness.correct(found, residual)
+        shift = 0.0
         if self._may_keep_mean and active.all():
             # The preconditioner drops the mean: that of the longest wave.
-            found += residual.mean() * np.float32(np.pi / self.patch.arm)
-        # Step 3: project.
-        self._project(found, active, inverse)
-        # Step 4: conjugate; beta = max(<z, r - r_old> / <z_old, r_old>, 0) (Polak & Ribiere).
-        slope, slope_before = _inner(self.patch.plane, found, residual, self._residual)
-        factor = 0.0
-        if self._slope > 0:
-            factor = max((slope - slope_before) / self._slope, 0.0)
-            if changed:
-                self._project(self._direction, active, inverse)
-        self._conjugate(found, factor)
+            shift = float(residual.mean() * np.float32(np.pi / self.patch.arm))
+        # Steps 3 and 4: project and conjugate.
+        slope = self._passes.direct(
+            found,
+            (self._direction, self._residual, self._slope),
+            (residual, active),
+            (self._rim_stiffness.values, CORRECTION),
+            checked.inverse_gram if inverse is None else inverse,
+            shift,
+            changed=bool(changed),
+        )
         self._direction, self._spare = found, self._direction
         self._active, self._next_active = active, self._active
         self._residual, self._next_residual = residual, self._residual
         self._slope = slope
         self.iterations += 1
         self._step()
-
-    def _release(self, block: RigidPlane) -> bool:
-        """Add overlapped cells to the active ones, and set the gap of the others to zero."""
-        active, gap = self._next_active[block.rows], self._next_residual[block.rows]
-        released = gap < 0
-        released &= ~active
-        active |= released
-        np.copyto(gap, 0.0, where=~active)
-        return bool(released.any())
-
-    def _project(
-        self,
-        vector: Singles,
-        active: Bools,
-        inverse: Floats,
-    ) -> None:
-        """Step 3: restrict a direction to the active cells, and remove its force and moments."""
-
-        def restricted(block: RigidPlane) -> Floats:
-            here = vector[block.rows]
-            here *= active[block.rows]
-            return block.sums_of_rows(here)
-
-        plane = inverse @ added(self.patch.plane.each(restricted))
-
-        def levelled(block: RigidPlane) -> None:
-            here = vector[block.rows]
-            # In double precision, so that what is left of the resultants is rounding of cells.
-            here[...] = here - active[block.rows] * block.field(plane)
-
-        self.patch.plane.each(levelled)
-
-    def _conjugate(self, found: Singles, factor: float) -> None:
-        """Turn the preconditioned residual into the next direction, in its memory."""
-
-        def conjugated(block: RigidPlane) -> None:
-            here = found[block.rows]
-            # Minus: directions point downhill, the preconditioned residual uphill.
-            np.subtract(factor * self._direction[block.rows], here, out=here)
-
-        self.patch.plane.each(conjugated)
 
     def _step(self) -> None:
         """Steps 4 and 5: step to the least energy on the direction, or towards the cut pressure."""
@@ -188,9 +143,9 @@ class BoundedCG:
         if self._is_projected_trial() and self._step_to_projected():
             return
         # Step 4: exact line search, length = -<r, d> / <d, K d>; the units hold the compliance.
-        plane, direction = self.patch.plane, self._direction
+        direction = self._direction
         change = self._unit_displacement_of(direction)
-        curvature, slope = _inner(plane, direction, change, self._residual)
+        curvature, slope = self._passes.inner(direction, change, self._residual)
         if curvature <= -slope / LONGEST_STEP:
             # A uniform pressure on a periodic grid displaces nothing: only a bound ends the step.
             self._slope = 0.0
@@ -203,7 +158,7 @@ class BoundedCG:
         # No plane factor balances the cut pressure. Adding a plane and cutting does, as all active
         # cells together can carry the load.
         self._slope = 0.0
-        others = self.problem.constraints, plane, self.patch.cell_area
+        others = self.problem.constraints, self.patch.plane, self.patch.cell_area
         self._ahead[...] = project_onto_balance(self.iterate.pressure, self._active, *others)
         if not self._project_to_feasible(is_ahead=True):
             self._move(-length, self._direction)
@@ -211,63 +166,39 @@ class BoundedCG:
 
     def _is_projected_trial(self) -> bool:
         """Put the pressure after a step of the last length aside; False without a cut."""
-        ahead, length = self._ahead, TRIAL_STEP_FACTOR * self._length * self._force_unit
-
-        def stepped(block: RigidPlane) -> float:
-            here, direction = ahead[block.rows], self._direction[block.rows]
-            np.multiply(direction, length, out=here, dtype=np.float64)
-            here += self.iterate.pressure[block.rows]
-            return float(here.min())
-
-        return min(self.patch.plane.each(stepped)) < 0 and self._is_balanced(ahead)
+        length = TRIAL_STEP_FACTOR * self._length * self._force_unit
+        return self._passes.trial(
+            self.iterate.pressure,
+            (self._direction, length),
+            self._ahead,
+            (self._spare, self._force_unit),
+            self.problem.constraints,
+            (self.patch.cell_area, self.patch.arm),
+        )
 
     def _step_to_projected(self) -> bool:
         """Step towards the feasible pressure set aside, at most all the way; whether far enough."""
         # Exact line search on the segment from the iterate to the projected pressure.
-        plane, step = self.patch.plane, self._step_ahead()
+        step = self._spare
         change = self._unit_displacement_of(step)
-        curvature, slope = _inner(plane, step, change, self._residual)
+        curvature, slope = self._passes.inner(step, change, self._residual)
         best = -slope / curvature if curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
-        # Taken while the residual is measured, which saves a pass over the iterate.
-        self._next_step = partial(self._step_part, best, step)
+        self._next_step = StepAhead(self._ahead, step, self._change, best, self._force_unit)
         return True
-
-    def _step_part(self, part: float, step: Singles, block: RigidPlane) -> None:
-        """Step on a block by a part of the way to the pressure set aside, at most all of it."""
-        length = min(part, 1.0) * self._force_unit
-        pressure, displacement = self.iterate.values[:, block.rows]
-        displacement += np.multiply(self._change[block.rows], length, dtype=np.float64)
-        if part >= 1.0:
-            pressure[...] = self._ahead[block.rows]
-        else:
-            pressure += np.multiply(step[block.rows], length, dtype=np.float64)
-            np.maximum(pressure, 0.0, out=pressure)  # below zero by rounding
 
     def _step_ahead(self) -> Singles:
         """Step from the iterate to the pressure set aside."""
-        step = self._spare
-
-        def subtract(block: RigidPlane) -> None:
-            here = self._ahead[block.rows] - self.iterate.pressure[block.rows]
-            np.multiply(here, 1 / self._force_unit, out=step[block.rows], casting="same_kind")
-
-        self.patch.plane.each(subtract)
-        return step
+        given = self._ahead, self.iterate.pressure, self._force_unit
+        self._passes.difference(*given, self._spare)
+        return self._spare
 
     def _move(self, length: float, step: Singles) -> float:
         """Move the iterate along a step of known unit displacement; return its least pressure."""
-        length *= self._force_unit
-
-        def moved(block: RigidPlane) -> float:
-            pressure, displacement = self.iterate.values[:, block.rows]
-            pressure += np.multiply(step[block.rows], length, dtype=np.float64)
-            displacement += np.multiply(self._change[block.rows], length, dtype=np.float64)
-            return float(pressure.min())
-
-        return min(self.patch.plane.each(moved))
+        values, length = self.iterate.values, length * self._force_unit
+        return self._passes.move(values, step, self._change, length)
 
     def _step_to_first_bound(self, length: float) -> None:
         """Step until the first cell loses its pressure, which keeps the balances."""
@@ -282,7 +213,7 @@ class BoundedCG:
 
     def _is_feasible(self) -> bool:
         """True if the pressure is non-negative and balanced to rounding."""
-        sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
+        sums = self._passes.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.constraints.imbalance(sums, self.patch.arm)
         return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
@@ -302,8 +233,8 @@ class BoundedCG:
 
     def _is_balanced(self, pressure: Floats) -> bool:
         """Cut off tension and balance by a plane factor; False where no factor does it."""
-        patch = self.patch
-        return balance(pressure, self.problem.constraints, patch.plane, patch.cell_area, patch.arm)
+        given = self.problem.constraints, self.patch.cell_area, self.patch.arm
+        return self._passes.balance(pressure, *given)
 
     def _unit_displacement_of(self, step: Singles) -> Singles:
         """Unit displacement ``K step`` by a convolution on the patch [-], in kept memory."""
@@ -315,15 +246,3 @@ def _largest_displacement(problem: ContactProblem, iterate: Guess) -> float:
     """Largest displacement [m], or the least that errors are relative to; 1 where both are zero."""
     largest = problem.compliance * float(iterate.unit_displacement.max())
     return max(problem.displacement_scale, largest) or 1.0
-
-
-def _inner(plane: RigidPlane, field: Singles, *others: Singles) -> list[float]:
-    """Inner products with other fields, in double precision but for the rows."""
-    # Not by BLAS, which would start threads.
-
-    def of_rows(block: RigidPlane) -> Floats:
-        here = field[block.rows]
-        rows = [np.einsum("ij,ij->i", here, other[block.rows]) for other in others]
-        return np.array([row.sum(dtype=np.float64) for row in rows])
-
-    return list(map(float, added(plane.each(of_rows))))

@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Field, Floats
+from viscontact.backend.compiled import core_by, fastest_inner_loops
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.cell_fields import is_even
 from viscontact.mechanics.contact.ended_operators import EndedOperators
+from viscontact.mechanics.contact.passes.choice import passes_over
 from viscontact.mechanics.contact.patch import Patch, PatchOperators
 from viscontact.mechanics.contact.response_parts import Operator, PartOperators
 from viscontact.mechanics.contact.rigid_balance import Constraints, RigidPlane
@@ -66,6 +68,7 @@ class ContactDomain:
         response: SurfaceResponse = HALF_SPACE,
         mirrored: tuple[bool, bool] = (False, False),
         transforms: Transforms | None = None,
+        inner_loops: str | None = None,
     ) -> None:
         odd = [count % 2 for count in grid.shape]
         if np.any(np.logical_and(mirrored, odd)):
@@ -82,7 +85,8 @@ class ContactDomain:
         self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
-        self.team, self._workspace = Team(self._transforms.threads), Workspace()
+        self._inner_loops, self._workspace = inner_loops or fastest_inner_loops(), Workspace()
+        self.team = Team(self._transforms.threads, core_by(self._inner_loops))
         self._first_row, self._first_column = (
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
@@ -120,7 +124,11 @@ class ContactDomain:
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
         domain = ContactDomain(
-            halved, response=self.response, mirrored=self.mirrored, transforms=self._transforms
+            halved,
+            response=self.response,
+            mirrored=self.mirrored,
+            transforms=self._transforms,
+            inner_loops=self._inner_loops,
         )
         domain.move_axis(self._axis)
         return domain
@@ -131,13 +139,13 @@ class ContactDomain:
             return
         self._axis = axis
         whole_is_last = self._last is self.whole
-        self.whole = replace(self.whole, plane=self._plane(self.whole.rows, self.whole.columns))
-        last = self._last
-        self._last = (
-            self.whole
-            if whole_is_last
-            else replace(last, plane=self._plane(last.rows, last.columns))
-        )
+        self.whole = self._turned(self.whole)
+        self._last = self.whole if whole_is_last else self._turned(self._last)
+
+    def _turned(self, patch: Patch) -> Patch:
+        """A patch with planes about the body's present axis."""
+        plane = self._plane(patch.rows, patch.columns)
+        return replace(patch, plane=plane, passes=passes_over(plane))
 
     def reduce_by_symmetry(self, field: Floats) -> Floats:
         """The independent part of a field on the grid."""
@@ -145,10 +153,7 @@ class ContactDomain:
 
     def expand_by_symmetry(self, field: Field) -> Field:
         """The field on the whole grid of its independent part, in the same memory if it is all."""
-        for axis in (0, 1):
-            if self.mirrored[axis]:
-                field = np.concatenate([np.flip(field, axis), field], axis)
-        return field
+        return self.team.unfold(field, self.mirrored)
 
     @property
     def periodic(self) -> tuple[bool, bool]:
@@ -173,7 +178,9 @@ class ContactDomain:
         """Last patch if it fits the given cells, else one with room to grow, or the grid."""
         if all(self.grid.periodic) or not cells.any():
             return self.whole
-        rows, columns = (self._lines(np.any(cells, axis=1 - axis), axis) for axis in (0, 1))
+        rows, columns = (
+            self._lines(span, axis) for axis, span in enumerate(_spans(cells, self.team))
+        )
         roomy = (
             _widen(rows, self.shape[0], one_sided=self.mirrored[0]),
             _widen(columns, self.shape[1], one_sided=self.mirrored[1]),
@@ -185,9 +192,8 @@ class ContactDomain:
             self._last = self._patch(*roomy)
         return self._last
 
-    def _lines(self, occupied: Bools | np.bool_, axis: int) -> slice:
+    def _lines(self, span: slice, axis: int) -> slice:
         """Lines of cells that a patch must hold: up to the mirror, and all of a period."""
-        span = _span(occupied)
         if self.grid.periodic[axis]:
             return slice(0, self.shape[axis])
         return slice(0, span.stop) if self.mirrored[axis] else span
@@ -210,6 +216,7 @@ class ContactDomain:
         """Patch on rows and columns of the domain."""
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)
+        plane = self._plane(rows, columns)
         return Patch(
             rows,
             columns,
@@ -220,7 +227,8 @@ class ContactDomain:
                 lambda: self._operator(shape, rows.start, single=True),
                 lambda: self._preconditioner(shape, rows.start),
             ),
-            self._plane(rows, columns),
+            plane,
+            passes_over(plane),
         )
 
     def _influence_table(self) -> Floats:
@@ -358,10 +366,13 @@ def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) ->
     return along_x, along_y
 
 
-def _span(occupied: Bools | np.bool_) -> slice:
-    """Smallest slice that holds the marked lines."""
-    index = np.flatnonzero(occupied)
-    return slice(int(index[0]), int(index[-1]) + 1)
+def _spans(cells: Bools, team: Team) -> tuple[slice, slice]:
+    """Smallest slices of rows and columns that hold the marked cells."""
+    if team.core is not None:
+        first_row, last_row, first_column, last_column = team.core.spans(cells)
+        return slice(first_row, last_row + 1), slice(first_column, last_column + 1)
+    rows, columns = (np.flatnonzero(np.any(cells, axis=axis)) for axis in (1, 0))
+    return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
 
 
 def _widen(span: slice, cells: int, *, one_sided: bool) -> slice:

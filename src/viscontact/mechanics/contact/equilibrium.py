@@ -18,7 +18,6 @@ from viscontact.mechanics.contact.contact_residual import contact_residual
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
-from viscontact.mechanics.contact.rigid_balance import balance
 from viscontact.mechanics.contact.winkler import winkler_contact
 
 #: Search directions of one solve.
@@ -97,7 +96,9 @@ def _above_rounding(
     # Just after first touch, displacements are far smaller than the approach.
     height = domain.whole.plane.height(np.array(problem.constraints.motions))
     least = GAP_ROUNDING * height / tolerance
-    return replace(problem, displacement_scale=max(problem.displacement_scale, least))
+    if least <= problem.displacement_scale:
+        return problem
+    return replace(problem, displacement_scale=least)
 
 
 def _solve_from(
@@ -161,7 +162,7 @@ def _search_on(
         # Steps in single precision leave imbalances of up to 1e-8; the displacement of the balanced
         # pressure is that of the check.
         constraints, cell_area = problem.constraints, patch.cell_area
-        balance(patch.cut(pressure), constraints, patch.plane, cell_area, patch.arm)
+        patch.passes.balance(patch.cut(pressure), constraints, cell_area, patch.arm)
     for outside in (slice(patch.rows.start), slice(patch.rows.stop, None)):
         pressure[outside] = 0.0
     for outside in (slice(patch.columns.start), slice(patch.columns.stop, None)):
@@ -179,7 +180,7 @@ def _is_balanced(
 ) -> bool:
     """True if force and moments of a pressure meet the constraints."""
     whole = domain.whole
-    off = problem.constraints.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
+    off = problem.constraints.imbalance(whole.passes.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance
 
 

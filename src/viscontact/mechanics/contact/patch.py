@@ -9,6 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Field, Singles
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.contact.passes.contract import SearchPasses
 from viscontact.mechanics.contact.response_parts import Operator
 from viscontact.mechanics.contact.rigid_balance import RigidPlane
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner
@@ -25,7 +26,7 @@ class PatchOperators:
     ) -> None:
         self._shape = shape
         self._convolution, self._preconditioner = convolution, preconditioner
-        self._near: dict[tuple[int, int], np.float32] = {}
+        self._near = np.empty((0, 0), np.float32)
 
     @cached_property
     def convolution(self) -> Operator:
@@ -37,19 +38,18 @@ class PatchOperators:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
 
-    def near_stiffness(self, spare: Singles) -> dict[tuple[int, int], np.float32]:
-        """Stiffness between a cell and those around it, by their offsets [1/m]; uses a field up."""
-        if not self._near:
+    def near_stiffness(self, spare: Singles) -> Singles:
+        """Stiffness between a cell and those around it, shape (3, 3) [1/m]; uses a field up."""
+        if not self._near.size:
             rows, columns = (count // 2 for count in self._shape)
             spare[...] = 0.0
             spare[rows, columns] = 1.0
             found = self.preconditioner.stiffness_of(spare, into=spare)
-            around = ((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1))
-            self._near = {
-                (down, right): np.float32(found[rows + down, columns + right])
-                for down, right in around
-                if 0 <= rows + down < self._shape[0] and 0 <= columns + right < self._shape[1]
-            }
+            self._near = np.zeros((3, 3), np.float32)
+            for down, right in np.ndindex(3, 3):
+                row, column = rows + down - 1, columns + right - 1
+                if 0 <= row < self._shape[0] and 0 <= column < self._shape[1]:
+                    self._near[down, right] = found[row, column]
         return self._near
 
 
@@ -63,6 +63,7 @@ class Patch:
     arm: float  # longer edge, which scales moments to forces [m]
     operators: PatchOperators
     plane: RigidPlane  # rigid motions over the patch
+    passes: SearchPasses  # what the search does cell by cell
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -25,7 +25,8 @@ class ContactProblem:
 
     def within(self, patch: Patch) -> ContactProblem:
         """Same problem on a patch."""
-        return replace(self, open_gap=patch.cut(self.open_gap))
+        others = self.compliance, self.constraints, self.displacement_scale
+        return ContactProblem(patch.cut(self.open_gap), *others)
 
     def coarsened(self) -> ContactProblem:
         """Same problem in doubled cells, but for an axis of one, with the mean gap."""

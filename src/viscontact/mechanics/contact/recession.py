@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.backend.team import blocks_of
+from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.rim_crossings import Recession
 
@@ -26,7 +26,7 @@ class Trend:
 
     def after(self, values: Callable[[slice], Floats], error: float) -> Trend:
         """Trend after another step, by its values in some rows, with their error."""
-        later = Trend(np.empty_like(self.extreme), np.empty_like(self.rises))
+        later = self.empty()
         # Rows of a block at once, without temporary arrays of the whole grid.
         for rows in blocks_of(len(self.extreme), self.extreme[0].nbytes):
             extreme, rises, given = self.extreme[rows], self.rises[rows], values(rows)
@@ -37,6 +37,10 @@ class Trend:
             later.extreme[rows] = np.where(turned | further, given, extreme)
             later.rises[rows] = rises ^ turned
         return later
+
+    def empty(self) -> Trend:
+        """Trend of as many cells, without particular values."""
+        return Trend(np.empty_like(self.extreme), np.empty_like(self.rises))
 
     def on(self, small: Grid, large: Grid, beyond: float) -> Trend:
         """The same trend on a larger grid, with a value beyond the smaller one."""
@@ -59,8 +63,20 @@ class ContactTrend:
         pressure = Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool))
         return cls(gap, pressure, np.zeros(grid.shape, dtype=bool))
 
-    def after(self, gap: Floats, pressure: Floats, in_contact: Bools, error: float) -> ContactTrend:
+    def after(
+        self,
+        gap: Floats,
+        pressure: Floats,
+        in_contact: Bools,
+        error: float,
+        team: Team | None = None,
+    ) -> ContactTrend:
         """Trend after another step, with the solver's error of gaps [m]."""
+        if team is not None and team.core is not None:
+            found = ContactTrend(self.gap.empty(), self.pressure.empty(), np.empty_like(self.left))
+            fields = gap, pressure, in_contact, error, TURNS, self.fields, found.fields
+            team.core.follow_trends(*fields, team.threads)
+            return found
 
         def closed(rows: slice) -> Floats:
             return np.where(in_contact[rows], 0.0, np.maximum(gap[rows], 0.0))
@@ -71,6 +87,12 @@ class ContactTrend:
         later = self.gap.after(closed, error)
         left = in_contact | (self.left & later.rises)
         return ContactTrend(later, self.pressure.after(pressed, 0.0), left)
+
+    @property
+    def fields(self) -> tuple[Floats, Bools, Floats, Bools, Bools]:
+        """Extremes and rises of gap and pressure, and the cells left."""
+        gap, pressure = self.gap, self.pressure
+        return gap.extreme, gap.rises, pressure.extreme, pressure.rises, self.left
 
     def on(self, small: Grid, large: Grid) -> ContactTrend:
         """The same trends on a larger grid."""

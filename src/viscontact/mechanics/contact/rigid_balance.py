@@ -75,6 +75,12 @@ class Constraints:
         return np.array([resultant is not None for resultant in self.resultants])
 
     @cached_property
+    def free_motions(self) -> tuple[bool, bool, bool]:
+        """The same as plain numbers."""
+        approach, tilt_x, tilt_y = self.free.tolist()
+        return approach, tilt_x, tilt_y
+
+    @cached_property
     def targets(self) -> Floats:
         """Resultants, zero where the motion is prescribed."""
         return np.array([resultant or 0.0 for resultant in self.resultants])
@@ -109,13 +115,18 @@ class RigidPlane:
     ) -> None:
         self._x, self._y = x, y
         self._mirrored, self._cell_size = mirrored, cell_size
-        self._team = team or Team()
+        self.team = team or Team()
         #: Rows of a field that these cells are.
         self.rows = rows or slice(0, len(x))
         # In units of cells, so that NO_EXTENT means the same on every grid.
         unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
         self._column, self._row = x * unit[1], y * unit[2]
         self._units = np.outer(unit, unit)
+
+    @property
+    def cells(self) -> tuple[Floats, Floats, tuple[float, float], tuple[bool, bool], int]:
+        """Cell centres [m] and sizes (dx, dy) [m], mirrored axes, and number of threads."""
+        return self._x, self._y, self._cell_size, self._mirrored, self.team.threads
 
     @property
     def extents(self) -> Floats:
@@ -140,7 +151,7 @@ class RigidPlane:
 
     def each(self, work: Callable[[RigidPlane], _Found]) -> list[_Found]:
         """Work on each block of rows, and return what that gives, in their order."""
-        return self._team.each(work, self._blocks)
+        return self.team.each(work, self._blocks)
 
     @cached_property
     def _blocks(self) -> list[RigidPlane]:

@@ -12,11 +12,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.backend.team import Team
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import Outline
 from viscontact.mechanics.contact.rim_crossings import MARGIN, Recession, locate_rim, places
@@ -29,6 +31,15 @@ SEGMENTS = 1 / 6
 #: Error of crossings by the gap around few cells, as a part of these segments over the mean chord
 #: in cells, and the least part that is left of them: balls and spots of rough surfaces.
 SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
+
+
+class _Extents(NamedTuple):
+    """Extents of a contact, and the lines of cells that it touches."""
+
+    along_x: float  # [cells]
+    along_y: float
+    rows: int
+    columns: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +58,7 @@ class Rim:
     rows: Integers  # position of the block in the grid
     columns: Integers
     segment: float  # area between rim and chords per quarter turn [cells]
+    team: Team
 
     @property
     def area(self) -> float:
@@ -58,18 +70,16 @@ class Rim:
         """Extent of the contact along x, at most a period where that is finite [m]."""
         if len(self.rows) > self.grid.shape[0]:
             return self.grid.size[0]
-        cells = _extent(self._touched_lines[0], self.contact, self.along_x)
-        return min(cells * self.grid.cell_size[0], self.grid.size[0])
+        return min(self._extents.along_x * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
     def width(self) -> float:
         """Extent of the contact along y, at most a period where that is finite [m]."""
         if len(self.columns) > self.grid.shape[1]:
             return self.grid.size[1]
-        cells = _extent(self._touched_lines[1], self.contact.T, self.along_y.T)
-        return min(cells * self.grid.cell_size[1], self.grid.size[1])
+        return min(self._extents.along_y * self.grid.cell_size[1], self.grid.size[1])
 
-    @property
+    @cached_property
     def breadth(self) -> float:
         """Shorter extent; one through a whole period does not count if there is another [m]."""
         extents = (self.length, self.width)
@@ -77,10 +87,13 @@ class Rim:
         return min(ended or extents)
 
     @cached_property
-    def _touched_lines(self) -> tuple[Integers, Integers]:
-        """Rows and columns of the block that have contact."""
+    def _extents(self) -> _Extents:
+        if (core := self.team.core) is not None:
+            return _Extents(*core.rim_extents(self.contact, self.along_x, self.along_y))
         rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
-        return rows, columns
+        along_x = _extent(rows, self.contact, self.along_x)
+        along_y = _extent(columns, self.contact.T, self.along_y.T)
+        return _Extents(along_x, along_y, len(rows), len(columns))
 
     @property
     def cells_across(self) -> int:
@@ -88,7 +101,7 @@ class Rim:
         # An axis along which the contact continues through the whole period does not count; without
         # any other, it is the number of cells of the grid.
         lines, counts = (self.rows, self.columns), self.grid.shape
-        touched = [len(each) for each in self._touched_lines]
+        touched = self._extents.rows, self._extents.columns
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
         return min(touched[k] for k in ends) if ends else max(counts)
 
@@ -116,16 +129,18 @@ def trace_rim(
     gap: Floats,
     outline: Outline | None = None,
     recession: Recession | None = None,
+    team: Team | None = None,
 ) -> Rim:
     """Locate the rim of a contact between cell centres; the area is of second order.
 
     The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the
     middle. The square root of the pressure inside a smooth rim belongs to an opening of
     distance^(3/2) outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep
-    law. Where the contact recedes, the pressure locates the rim.
+    law. Where the contact recedes, the pressure locates the rim. A `team` has the compiled passes.
     """
+    team = team or Team()
     if any(grid.periodic):
-        return _trace_around(grid, contact, gap, outline, recession)
+        return _trace_around(grid, contact, gap, outline, recession, team)
     rows, columns = _block(contact, axis=0), _block(contact, axis=1)
     contact, gap = contact[rows, columns], gap[rows, columns]
     recession = None if recession is None else recession.within((rows, columns))
@@ -133,9 +148,10 @@ def trace_rim(
     if outline is not None:
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
         ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
-    along_x, along_y = locate_rim(grid, contact, gap, recession, ends)
+    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
     first, second = np.arange(grid.shape[0])[rows], np.arange(grid.shape[1])[columns]
-    return Rim(grid, contact, along_x, along_y, first, second, _mean_segment(contact, gap))
+    segment = _segment_of(_chords(contact, team), contact, gap)
+    return Rim(grid, contact, along_x, along_y, first, second, segment, team)
 
 
 def _block(contact: Bools, axis: int) -> slice:
@@ -147,10 +163,15 @@ def _block(contact: Bools, axis: int) -> slice:
 
 
 def _trace_around(
-    grid: Grid, contact: Bools, gap: Floats, outline: Outline | None, recession: Recession | None
+    grid: Grid,
+    contact: Bools,
+    gap: Floats,
+    outline: Outline | None,
+    recession: Recession | None,
+    team: Team,
 ) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
-    segment = _mean_segment(contact, gap, periodic=grid.periodic)
+    segment = _segment_of(mean_chords(contact, periodic=grid.periodic), contact, gap)
     (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
         _lines_around(contact, axis, repeats=grid.periodic[axis]) for axis in (0, 1)
     )
@@ -164,8 +185,9 @@ def _trace_around(
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
         ends = end_x, end_y
     inner = inner_rows, inner_columns
-    along_x, along_y = locate_rim(grid, contact, gap, recession, ends)
-    return Rim(grid, contact[inner], along_x[inner], along_y[inner], rows, columns, segment)
+    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
+    crossings = along_x[inner], along_y[inner]
+    return Rim(grid, contact[inner], *crossings, rows, columns, segment, team)
 
 
 def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
@@ -196,14 +218,17 @@ def _with_margin(lines: Integers, count: int) -> Integers:
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 
 
-def _mean_segment(
-    contact: Bools,
-    gap: Floats,
-    *,
-    periodic: Sequence[bool] = (False, False),
-) -> float:
+def _chords(contact: Bools, team: Team) -> Floats:
+    """Mean chords of a contact that no period continues."""
+    if team.core is None:
+        return mean_chords(contact)
+    cells, along_x, along_y = team.core.chords(contact)
+    return np.array([cells / max(along_x, 1), cells / max(along_y, 1)])
+
+
+def _segment_of(chords: Floats, contact: Bools, gap: Floats) -> float:
     """Area between the rim and its chords per quarter turn, less the error of the crossings."""
-    along_x, along_y = mean_chords(contact, periodic=periodic).tolist()
+    along_x, along_y = chords.tolist()
     if not along_x:
         return SEGMENTS
     by_gap, beyond = 1.0, np.isinf(gap)
@@ -220,6 +245,8 @@ def _mean_segment(
 
 def _enclosed_squares(rim: Rim) -> float:
     """Squares between four neighbouring centres, each counted by its enclosed part."""
+    if (core := rim.team.core) is not None:
+        return float(core.enclosed_squares(rim.contact, rim.along_x, rim.along_y, rim.segment))
     inside = rim.contact
     pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
     count = pairs[:, 1:] + pairs[:, :-1]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.backend.team import Team
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.straight_edge import EdgeLaw, edge_laws
 
@@ -70,8 +73,11 @@ def locate_rim(
     gap: Floats,
     recession: Recession | None,
     ends: tuple[Floats, Floats] | None,
+    team: Team,
 ) -> tuple[Floats, Floats]:
     """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
+    if team.core is not None:
+        return _compiled_crossings(grid, contact, gap, recession, ends, team.core)
     intervals = _changes(contact)
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
     located, slope = _by_gaps(_laws(grid, 0), intervals, touches, gaps.ravel())
@@ -93,6 +99,31 @@ def locate_rim(
     inside = slice(PADDING, -PADDING)
     along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
     return along_x[:-1], along_y[:, :-1]
+
+
+def _compiled_crossings(
+    grid: Grid,
+    contact: Bools,
+    gap: Floats,
+    recession: Recession | None,
+    ends: tuple[Floats, Floats] | None,
+    core: ModuleType,
+) -> tuple[Floats, Floats]:
+    """The same by the compiled core."""
+    nx, ny = contact.shape
+    found = np.empty((nx - 1, ny)), np.empty((nx, ny - 1))
+    outline = None
+    if ends is not None and np.isinf(gap).any():
+        outline = np.ascontiguousarray(ends[0]), np.ascontiguousarray(ends[1])
+    laws = (_compiled_law(law, core) for side in (0, 1) for law in _laws(grid, side))
+    receding = None if recession is None else tuple(recession)
+    core.locate_rim(contact, gap, *laws, receding, outline, *found)
+    return found
+
+
+@lru_cache(maxsize=256)
+def _compiled_law(law: EdgeLaw, core: ModuleType) -> Any:
+    return core.EdgeLaw(law.threshold, law.growth, law.slopes, law.offsets)
 
 
 def places(where: Bools) -> tuple[Integers, Integers]:

@@ -17,6 +17,7 @@ from viscontact.backend.transforms import (
     as_reals,
     fastest_transforms,
     fill_of_order,
+    multiply_by_even,
     restore_of_order,
     transforms_by,
 )
@@ -163,12 +164,7 @@ class Convolution:
         _part(padded, second, slice(self.shape[second], None))[...] = 0
         padded = self._along_second(transforms.cosine_forward, transforms.complex_forward, padded)
         symbol = _part(self._symbol, first, waves)
-        known = symbol.shape[second]
-        lower = _part(padded, second, slice(known))
-        lower *= symbol
-        if known < self._lengths[second]:  # the symbol is even: the rest is its mirror image
-            upper = _part(padded, second, slice(known, None))
-            upper *= _part(symbol, second, slice(self._lengths[second] - known, 0, -1))
+        multiply_by_even(padded, symbol, second)
         padded = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, padded)
         found = _part(padded, second, slice(self.shape[second]))
         if apart or not np.may_share_memory(found, spectrum):

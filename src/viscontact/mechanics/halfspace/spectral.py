@@ -24,6 +24,7 @@ from viscontact.backend.transforms import (
     Transforms,
     fastest_transforms,
     fill_of_order,
+    multiply_by_even,
     restore_of_order,
     transforms_by,
 )
@@ -162,7 +163,7 @@ class Spectra:
         self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
         spectrum = self._transform(block, spectrum)
         self._team.each(
-            lambda here: np.multiply(spectrum[here], symbol[here], out=spectrum[here]),
+            lambda here: multiply_by_even(spectrum[here], symbol[here], 1),
             self._wave_rows,
         )
         back = self._transform_back(spectrum, block)

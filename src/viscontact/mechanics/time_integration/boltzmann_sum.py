@@ -76,7 +76,7 @@ class BoltzmannSum(HereditaryIntegral):
         past = self._history_at(self._time, StepShape(0.0, 0.0))
         compliance = self._compliance.instant
         history = past - compliance * self._value
-        return HereditaryResponse(lambda: history, compliance, resolved=True)
+        return HereditaryResponse((1.0,), (history,), compliance, resolved=True)
 
     def ramp(
         self, duration: float, *, smooth: bool = False, others: Companions = ()
@@ -102,7 +102,7 @@ class BoltzmannSum(HereditaryIntegral):
             history += (1 - step.turn_weight) * (risen - slow) * trend.mean
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=step.slow == 0)
-        return HereditaryResponse(lambda: history, compliance, resolved, step.held, step.trended)
+        return HereditaryResponse((1.0,), (history,), compliance, resolved, step.held, step.trended)
 
     def accept(self, value: Floats) -> None:
         """Add the increments to the new value of the field, and close the step."""

@@ -52,15 +52,8 @@ def predict(
         weights = lagrange_weights(drives, drive)
     else:
         weights = lagrange_weights([each.time for each in known], time)
-    # The weights add up to one: last + w0 (first - last), in place to save passes over the fields.
     fields = np.empty(known[-1].fields.shape)
-
-    def extrapolate(found: Floats, first: Floats, last: Floats) -> None:
-        np.subtract(first, last, out=found)
-        found *= weights[0]
-        found += last
-
-    (team or Team()).each_part(extrapolate, fields, known[0].fields, known[-1].fields)
+    (team or Team()).weighted_sum(fields, weights, [each.fields for each in known])
     motion = np.asarray(weights) @ np.array([each.motion for each in known])
     return ElasticReference(time, drive, fields, motion)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import field
 
 import numpy as np
@@ -25,10 +24,13 @@ MAX_RESOLVED_CREEP = 0.5
 
 @dataclass(frozen=True)
 class HereditaryResponse:
-    """Displacement at the end of a step as a function of the new value q: u = history + J q."""
+    """Displacement at the end of a step as a function of the new value q: u = history + J q.
 
-    #: Makes the displacement from all earlier steps, until the step is accepted.
-    past: Callable[[], Floats]
+    The history is a weighted sum of fields, which hold until the step is accepted.
+    """
+
+    weights: tuple[float, ...]
+    fields: tuple[Floats, ...]  # [m if q is in Pa m, weights as compliances where they are q]
     compliance: float  # mean of J over the rise of the step, J(0) for a jump [1/Pa]
     resolved: bool  # the step is short against the law, so that pressure may change much over it
     held: float = 0.0  # part of the step over which the new value is held after its rise [-]
@@ -38,18 +40,25 @@ class HereditaryResponse:
     @property
     def history(self) -> Floats:
         """Displacement from all earlier steps, not to be changed [m if q is in Pa m]."""
-        return self.past()
+        if self.weights == (1.0,):
+            return self.fields[0]
+        return self.team.weighted_sum(np.empty(self.shape), self.weights, self.fields)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the field."""
+        return self.fields[0].shape
 
     def of(self, value: Floats) -> Floats:
         """Displacement for a new value of the field."""
-        displacement = np.empty(value.shape)
+        weights, fields = (self.compliance, *self.weights), (value, *self.fields)
+        return self.team.weighted_sum(np.empty(value.shape), weights, fields)
 
-        def add(found: Floats, given: Floats, past: Floats) -> None:
-            np.multiply(self.compliance, given, out=found)
-            found += past
-
-        self.team.each_part(add, displacement, value, self.history)
-        return displacement
+    def value_of(self, displacement: Floats) -> Floats:
+        """New value of the field for a displacement, in the memory of that."""
+        each = 1 / self.compliance
+        weights = (each, *(-each * weight for weight in self.weights))
+        return self.team.weighted_sum(displacement, weights, (displacement, *self.fields))
 
 
 class HereditaryIntegral(ABC):

@@ -91,14 +91,9 @@ class InternalVariables(HereditaryIntegral):
         weights, values = zip(*self._weighted_values(value), strict=True)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
 
-        def add(*parts: Floats) -> None:
-            given = parts[len(self._fields) :]
-            for index, here in enumerate(parts[: len(self._fields)]):
-                here *= self._next.decay[index]
-                for weight, each in zip(weights, given, strict=True):
-                    here += weight[index] * each
-
-        self._team.each_part(add, *self._fields, *values)
+        for index, field in enumerate(self._fields):
+            each = (self._next.decay[index], *(weight[index] for weight in weights))
+            self._team.weighted_sum(field, each, (field, *values))
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
 
@@ -156,24 +151,12 @@ class InternalVariables(HereditaryIntegral):
         """Response to the step whose weights are set."""
         step, shape = self._next, self._shape
         compliance = self._compliance.instant + float(step.new.sum())
-        return HereditaryResponse(
-            self._history, compliance, step.resolved, shape.held, shape.trended, self._team
-        )
-
-    def _history(self) -> Floats:
-        """All of the displacement that does not depend on the new value; computed when wanted."""
-        step, history = self._next, np.empty(self._value.shape)
-        weights, others = step.decay.tolist(), list(self._fields)
-        if self._trend is not None and not self._shape.is_level:
-            weights, others = [*weights, step.trend.sum()], [*others, self._trend.mean]
-
-        def add(found: Floats, value: Floats, *given: Floats) -> None:
-            np.multiply(step.old.sum(), value, out=found)
-            for weight, each in zip(weights, given, strict=True):
-                found += weight * each
-
-        self._team.each_part(add, history, self._value, *others)
-        return history
+        weights: tuple[float, ...] = (float(step.old.sum()), *step.decay.tolist())
+        fields: tuple[Floats, ...] = (self._value, *self._fields)
+        if self._trend is not None and not shape.is_level:
+            weights, fields = (*weights, float(step.trend.sum())), (*fields, self._trend.mean)
+        others = shape.held, shape.trended, self._team
+        return HereditaryResponse(weights, fields, compliance, step.resolved, *others)
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.backend.team import Team, blocks_of
+from viscontact.backend.team import Team
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.bodies.loads.clock import TIME
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
@@ -107,12 +107,12 @@ class TimeErrors:
         contact = values[0] > 0
         if self._values is not None:
             contact |= self._values[0] > 0
-        size = max(self._size, self._mean_over(contact, values[1]))
+        size = max(self._size, self._team.mean_change(contact, values[1]))
         level = max(self._level, self._load.level_of(point))
         if step.is_jump or self._values is None:
             return StepError(0.0, 0.0, size, level)
         rate = self._rate_over(step, values[1], self._values[1])
-        travel = LARGEST_OVER_MEAN * step.duration * self._mean_over(contact, rate)
+        travel = LARGEST_OVER_MEAN * step.duration * self._team.mean_change(contact, rate)
         interpolation_error = self._interpolation_error(step, rate, contact, travel, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
@@ -198,7 +198,7 @@ class TimeErrors:
         late = response.held * travel / 2
         if not step.smooth or self._rate is None:
             return max(late, ISOLATED_STEP_SHARE * travel)
-        change = LARGEST_OVER_MEAN * self._mean_over(contact, rate, self._rate)
+        change = LARGEST_OVER_MEAN * self._team.mean_change(contact, rate, self._rate)
         curvature = 2 * change / (step.duration + self._durations[-1])
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
@@ -233,28 +233,5 @@ class TimeErrors:
 
     def _rate_over(self, step: TimeStep, value: Floats, before: Floats) -> Floats:
         """Mean rate of a field over a step."""
-        rate = np.empty(value.shape)
-
-        def divide(found: Floats, late: Floats, early: Floats) -> None:
-            np.subtract(late, early, out=found)
-            found /= step.duration
-
-        self._team.each_part(divide, rate, value, before)
-        return rate
-
-    def _mean_over(
-        self,
-        where: Bools,
-        field: Floats,
-        other: Floats | None = None,
-    ) -> float:
-        """Mean absolute value of a field, or of its difference to another, over some cells."""
-
-        def sums(rows: slice) -> tuple[int, float]:
-            here = field[rows] if other is None else field[rows] - other[rows]
-            cells = where[rows]
-            return int(np.count_nonzero(cells)), float(np.abs(here).sum(where=cells))
-
-        rows = blocks_of(len(field), field[:1].nbytes)
-        counts, totals = zip(*self._team.each(sums, rows), strict=True)
-        return sum(totals) / sum(counts) if any(counts) else 0.0
+        each = 1 / step.duration
+        return self._team.weighted_sum(np.empty(value.shape), (each, -each), (value, before))

@@ -13,7 +13,7 @@ from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 
 #: Layout of the restart data; raise it with every change of a name or a meaning in them.
-LAYOUT = 5
+LAYOUT = 6
 
 #: Remedy for files from which a run cannot be resumed.
 REMEDY = "start the run again with --overwrite"
@@ -29,6 +29,7 @@ class Checkpoint:
     result: RestartData  # position of the result's writer
     march: RestartData  # empty before the first step
     transforms: str  # library of the Fourier transforms
+    inner_loops: str  # what computes them
     version: str = __version__  # of the program that saved it
     layout: int = LAYOUT  # of the restart data
 

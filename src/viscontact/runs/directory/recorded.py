@@ -75,14 +75,15 @@ class Recorded:
             raise ChangedCaseError(changes)
         return saved
 
-    def with_transforms(self, library: str) -> Self:
-        """Return the run with its first library of transforms; ValueError if not installed."""
+    def with_libraries(self, transforms: str, inner_loops: str) -> Self:
+        """Return the run with its first transforms and inner loops; ValueError if not installed."""
         try:
-            return replace(self, run=self.run.with_transforms(library))
+            return replace(self, run=self.run.with_libraries(transforms, inner_loops))
         except ValueError as error:
             raise ValueError(
-                f"{self.directory}: the run has used the Fourier transforms of {library}, and no "
-                f"others give the same bits: {error}; or start the run again with --overwrite"
+                f"{self.directory}: the run has used the Fourier transforms of {transforms} and "
+                f"{inner_loops} inner loops, and no others give the same bits: {error}; or "
+                "start the run again with --overwrite"
             ) from error
 
     def resumed_march(self, saved: Checkpoint) -> States:

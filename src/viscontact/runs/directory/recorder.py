@@ -72,7 +72,7 @@ class Recorder:
     ) -> Self:
         """Continue from the last checkpoint; errors as of `load_checkpoint` before any change."""
         saved = recorded.load_checkpoint()
-        recorded = recorded.with_transforms(saved.transforms)
+        recorded = recorded.with_libraries(saved.transforms, saved.inner_loops)
         record = cls.__new__(cls)
         record._set_up(recorded, recorded.resumed_march(saved), on_begin, undisturbed)
         if not saved.march:
@@ -237,8 +237,10 @@ class Recorder:
         recorded = self._recorded
         lines = 0 if self._lines is None else self._lines.count
         march = self._march.restart_data() if begun else {}
-        state = (lines, self._place, self._writer.position, march, recorded.run.setup.transforms)
-        checkpoint = Checkpoint(recorded.run.case, *state)
+        setup = recorded.run.setup
+        state = lines, self._place, self._writer.position, march
+        libraries = setup.transforms, setup.inner_loops
+        checkpoint = Checkpoint(recorded.run.case, *state, *libraries)
         save_checkpoint(recorded.directory / STATE_NAME, checkpoint, recorded.check)
         self.saved = self._reached_place
 

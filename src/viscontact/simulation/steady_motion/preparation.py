@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.compiled import NUMPY
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import AutomaticGrid, Grid
@@ -109,10 +110,15 @@ class SteadySetup:
         """Smallest grid that holds the grids of all speeds."""
         return common_grid(self.grids)
 
-    def with_transforms(self, library: str) -> SteadySetup:
-        """Return the run with another library of transforms; ValueError if not installed."""
-        solver = replace(self.solver, transforms=transforms_by(library, self.threads))
-        return replace(self, solver=solver, transforms=library)
+    @property
+    def inner_loops(self) -> str:
+        """Inner loops: those of NumPy."""
+        return NUMPY
+
+    def with_libraries(self, transforms: str, inner_loops: str) -> SteadySetup:
+        """Return the run with other transforms; ValueError if not installed."""
+        solver = replace(self.solver, transforms=transforms_by(transforms, self.threads))
+        return replace(self, solver=solver, transforms=transforms)
 
 
 def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:

@@ -148,7 +148,8 @@ class March:
         state = self._observer.evaluate(step, trial.point, solution)
         slip = self._friction.trial(step, solution, trial.joint)
         self._friction.accept(slip)
-        state = replace(state, **slip.values)
+        if slip.values:
+            state = replace(state, **slip.values)
         if state.heat is not None and state.dissipation is not None:
             heat, power = slip.loss
             state = replace(state, heat=state.heat + heat, dissipation=state.dissipation + power)
@@ -175,6 +176,7 @@ def domain_of(run: RunSetup) -> ContactDomain:
         response=terms[0].response,
         mirrored=run.mirrored,
         transforms=transforms_by(run.transforms, run.threads),
+        inner_loops=run.inner_loops,
     )
 
 

@@ -70,7 +70,7 @@ class Observer:
     """Turns solutions into states; keeps what needs the steps before: work and warnings."""
 
     def __init__(self, run: RunSetup, *, warns: bool = True) -> None:
-        self._warns = warns
+        self._warns, self._team = warns, run.team
         self._set_geometry(run)
         stands = run.problem.motion.stands
         self._motion = transient.StandingContact() if stands else transient.MovingContact(run)
@@ -135,15 +135,8 @@ class Observer:
         self._cycles.record_work(step, self._work + self._motion.work)
         if self._warns:
             self._collect_warnings(step, solution, rim)
-        state = _state(
-            *(step, solution, rim, self._work, self._cycles.last_loss),
-            has_datum=has_datum,
-            adheres=self._run.law is not None,
-        )
-        grown = self._run.problem.thickening_at(step.time)
-        state = replace(state, approach=state.approach - grown, **moved)
-        if not self._run.tilts_from_datum:
-            state = replace(state, tilt_x=math.nan)
+        totals = self._work, self._cycles.last_loss
+        state = _state(self._run, step, solution, rim, totals, moved)
         self._extents = self._extents.after(self._exceeded, state.contact_area, step.time)
         if self._events is not None:
             self._events.after(state)
@@ -178,9 +171,9 @@ class Observer:
         recession = None
         if self._trend is not None:
             error = self._run.problem.solver_error * float(np.abs(solution.displacement).max())
-            self._trend = self._trend.after(gap, solution.pressure, in_contact, error)
+            self._trend = self._trend.after(gap, solution.pressure, in_contact, error, self._team)
             recession = self._trend.recession(solution.pressure)
-        return trace_rim(self._run.grid, in_contact, gap, self._outline, recession)
+        return trace_rim(self._run.grid, in_contact, gap, self._outline, recession, self._team)
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
         """Add the new warnings; at the last state, the mesh is judged by the largest contact."""
@@ -359,15 +352,19 @@ class Observer:
 
 
 def _state(
+    run: RunSetup,
     step: TimeStep,
     solution: StepSolution,
     rim: Rim,
-    work: float,
-    loss: float,
-    *,
-    has_datum: bool,
-    adheres: bool,
+    totals: tuple[float, float],
+    moved: dict[str, Any],
 ) -> ContactState:
+    """State of a solution: `totals` are the work and the loss of a cycle [J].
+
+    `moved` are the scalars of motion, clocks and adhesion.
+    """
+    adheres, has_datum = run.law is not None, run.problem.has_datum(rim.grid)
+    grown = run.problem.thickening_at(step.time)
     force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
     touching = bool(solution.in_contact.any()) if adheres else force > 0
     # Along its period a surface has no centre from which the force could be offset.
@@ -390,8 +387,8 @@ def _state(
         force=force,
         eccentricity_x=moment_x / force if centred_x and is_offset else math.nan,
         eccentricity_y=moment_y / force if centred_y and is_offset else math.nan,
-        approach=float(solution.motion[0]) if has_datum else math.nan,
-        tilt_x=float(solution.motion[1]),
+        approach=float(solution.motion[0]) - grown if has_datum else math.nan,
+        tilt_x=float(solution.motion[1]) if run.tilts_from_datum else math.nan,
         tilt_y=float(solution.motion[2]),
         contact_area=area,
         contact_length=rim.length,
@@ -399,11 +396,12 @@ def _state(
         peak_pressure=peak,
         mean_pressure=min(force / area, peak) if area > 0 else 0.0,  # rounded
         peak_line_load=peak_line_load(load, rim.grid, rim.length),
-        work=work,
-        loss_per_cycle=loss,
+        work=totals[0],
+        loss_per_cycle=totals[1],
         time_error=solution.time_error,
         iterations=solution.iterations,
         residual=solution.residual,
         cells_across=rim.cells_across,
         outcome=solution.outcome,
+        **moved,
     )

@@ -42,6 +42,7 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "case": json.dumps(describe_problem(run.problem, run.grid)),
         "tolerance": run.problem.tolerance,
         "transforms": run.transforms,
+        "inner_loops": run.inner_loops,
         "memory": run.hereditary.method,
         "memory_error": max(plan.error for plan in run.plans),
         "splitting_error": run.problem.surface.splitting_error,

@@ -10,7 +10,9 @@ from numbers import Integral
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.compiled import core_by, fastest_inner_loops
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.backend.team import Team
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
@@ -61,6 +63,7 @@ class RunSetup:
     mesh: meshing.Mesh | None  # None for a given grid
     threads: int
     transforms: str  # library, which a run keeps, as rounding differs
+    inner_loops: str  # compiled ones or those of NumPy, which a run keeps, too
     other_terms: tuple[HereditaryPlan, ...] = ()  # of layers that creep differently
     law: CohesiveLaw | None = None  # attraction of bodies that adhere
 
@@ -100,10 +103,16 @@ class RunSetup:
         """Return the same run on another grid."""
         return replace(self, grid=grid, open_gap=_gap_on(self.problem, grid))
 
-    def with_transforms(self, library: str) -> RunSetup:
-        """Return the run with another library of transforms; ValueError if not installed."""
-        transforms_by(library)
-        return replace(self, transforms=library)
+    def with_libraries(self, transforms: str, inner_loops: str) -> RunSetup:
+        """Return the run with other transforms and inner loops; ValueError if not installed."""
+        transforms_by(transforms)
+        core_by(inner_loops)
+        return replace(self, transforms=transforms, inner_loops=inner_loops)
+
+    @cached_property
+    def team(self) -> Team:
+        """Threads and inner loops that work on fields of the whole grid."""
+        return Team(self.threads, core_by(self.inner_loops))
 
     def position_at(self, time: float) -> tuple[float, float]:
         """Position of the body's axis at a time [m]."""
@@ -167,9 +176,8 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     law = None if problem.adhesion is None else law_on(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan, *others = plan_history(problem, open_gap, grid)
-    transforms = fastest_transforms()
-    terms = tuple(others)
-    return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), transforms, terms, law)
+    libraries = int(threads), fastest_transforms(), fastest_inner_loops()
+    return RunSetup(problem, grid, open_gap, plan, mesh, *libraries, tuple(others), law)
 
 
 def _check_parts(problem: Problem) -> None:

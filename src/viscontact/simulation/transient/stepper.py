@@ -200,17 +200,17 @@ class Stepper:
         position = self._run.position_at(step.time)
         self._domain.move_axis(position)
         open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
-        past, displacement = response.past()
+        widened = response.widened(open_gap)  # step 2: the history widens the gap
         lift = self._friction.earlier_lift(step)
-        problem = ContactProblem(  # step 2: the history widens the gap
-            open_gap + displacement if lift is None else open_gap + displacement + lift,
+        problem = ContactProblem(
+            widened if lift is None else widened + lift,
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
         known, team = self._reference_history(step), self._domain.team
         if self._run.problem.motion.stands:
-            guess = self._reference_guess(predict(known, step.time, drive, team), response, past)
+            guess = self._reference_guess(predict(known, step.time, drive, team), response)
         else:
             moved = predict(self._move_known(known, step), step.time, point.level, team)
             guess = None if moved is None else self._moved_guess(moved, problem)
@@ -235,8 +235,7 @@ class Stepper:
             largest = max(largest, -float(trial.reference.fields[1].min()))
             self._adhesive_accept(trial.adhesive)
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
-        found = _on_full_grid(self._domain, trial, time_error, loss)
-        return replace(found, stability=self._stability(step, trial))
+        return _on_full_grid(self._domain, trial, time_error, loss, self._stability(step, trial))
 
     def _known_from(self, trial: TrialStep) -> ElasticReference:
         """Reference that the next guess is extrapolated from."""
@@ -276,24 +275,19 @@ class Stepper:
         self,
         reference: ElasticReference | None,
         response: SurfaceStep,
-        history: Floats,
     ) -> Guess | None:
-        """Pressure and unit displacement of a reference; `history` is that of the first term."""
+        """Pressure and unit displacement of a reference."""
         if reference is None or response.first.compliance == 0:
             return None
         values = reference.fields  # made by `predict` for this use, so it may be overwritten
         if len(response.terms) > 1:  # the displacement is that of all terms
-            np.subtract(values[0], history[0], out=values[0])
-            values[0] /= response.first.compliance
+            first = response.first
+            values[0] -= first.history[0]
+            values[0] /= first.compliance
             self._domain.convolution.apply(values[0], into=values[1])
             return Guess(values, reference.motion)
 
-        def increment(found: Floats, past: Floats) -> None:
-            found -= past
-            found /= response.compliance
-
-        self._domain.team.each_part(increment, values, history)
-        return Guess(values, reference.motion)
+        return Guess(response.first.value_of(values), reference.motion)
 
     def _move_known(self, known: list[ElasticReference], step: TimeStep) -> list[ElasticReference]:
         """Known solutions, moved by whole cells to where the body is at the end of a step."""
@@ -306,8 +300,8 @@ class Stepper:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
-            untouched = not response.past()[1].any()
-            return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT, None
+            touched = self._first_touch(step, problem, untouched=response.is_untouched)
+            return touched, Outcome.NO_CONTACT, None
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
             return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
@@ -404,6 +398,7 @@ def _on_full_grid(
     trial: TrialStep,
     time_error: float,
     loss: tuple[float, float] = (math.nan, math.nan),
+    stability: float = math.nan,
 ) -> StepSolution:
     """The solution of a step, on the whole grid, with heat [J] and power [W] lost."""
     solution, lift = trial.solution, trial.lift
@@ -433,6 +428,7 @@ def _on_full_grid(
         iterations=solution.iterations,
         outcome=trial.outcome,
         resolved=all(term.resolved for term in trial.response.terms),
+        stability=stability,
         time_error=time_error,
         heat=loss[0],
         power=loss[1],

@@ -39,13 +39,18 @@ class SurfaceStep:
         """Response of the first term."""
         return self.terms[0]
 
-    def past(self) -> tuple[Floats, Floats]:
-        """∫ J_1 dp [-] and ∫ J_1 dq_1 [m] so far (2, nx, ny), and displacement by all terms [m]."""
-        first = self.first.history
-        displacement: Floats = first[1]
-        for term in self.terms[1:]:
-            displacement = displacement + term.history[1]
-        return first, displacement
+    def widened(self, open_gap: Floats) -> Floats:
+        """An open gap and the displacement so far by all terms [m]."""
+        weights, fields = [1.0], [open_gap]
+        for term in self.terms:
+            weights += term.weights
+            fields += [field[1] for field in term.fields]
+        return self.first.team.weighted_sum(np.empty(open_gap.shape), weights, fields)
+
+    @property
+    def is_untouched(self) -> bool:
+        """True if no displacement is left of earlier steps."""
+        return not any(term.history[1].any() for term in self.terms)
 
     @property
     def weights(self) -> tuple[float, ...]:

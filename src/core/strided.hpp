@@ -1,4 +1,4 @@
-// Functions of the core, on plain memory: module.cpp hands arrays to them, without the lock of Python.
+// Numbers in any layout of one or two axes.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@ namespace viscontact {
 
 /// Numbers of two axes in memory; steps between neighbours count in numbers, and may be negative.
 template <typename Real>
-struct Field {
+struct Strided {
   const Real* first;
   std::ptrdiff_t rows, columns;
   std::ptrdiff_t row_step, column_step;
@@ -15,6 +15,6 @@ struct Field {
 
 /// Largest absolute value; NaN if one of the numbers is.
 template <typename Real>
-double largest(const Field<Real>& field);
+double largest(const Strided<Real>& field);
 
 }  // namespace viscontact

@@ -1,0 +1,296 @@
+#include "rim.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace viscontact {
+
+namespace {
+
+constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+constexpr double BEYOND = std::numeric_limits<double>::infinity();
+
+// As in straight_edge.py and rim_crossings.py.
+constexpr double MAX_CURVATURE = 0.3, MAX_DISTANCE = 1.5, LEAST_DESCENT = 1e-6;
+constexpr std::ptrdiff_t LEAST_CHORD = 4;
+
+struct Cell {
+    std::ptrdiff_t row, column;
+
+    Cell moved(const Cell &step, std::ptrdiff_t times = 1) const {
+        return {row + times * step.row, column + times * step.column};
+    }
+};
+
+template <class Number>
+Number at(const Field<Number> &field, const Cell &cell, Number outside) {
+    if (cell.row < 0 || cell.column < 0 || cell.row >= field.rows || cell.column >= field.columns)
+        return outside;
+    return field.row(cell.row)[cell.column];
+}
+
+// Interval between neighbouring centres in which contact changes.
+struct Interval {
+    int axis;  // 0: along x
+    Cell start, inner, outer;
+    Cell outwards, across;  // steps to the open cell and to the next line
+    double located = NONE, slope = 0;
+};
+
+double at_most(double value, double limit) { return value > limit ? limit : value; }
+double at_least(double value, double limit) { return value < limit ? limit : value; }
+
+double slope_of(double behind, double before, double far, double near) {
+    return (behind - before) / (2 * (far - near));
+}
+
+void locate_by_gaps(Interval &here, const EdgeLaw &law, const Field<Flag> &contact, const Field<double> &gap) {
+    const Cell second = here.outer.moved(here.outwards);
+    double near = at_least(at(gap, here.outer, BEYOND), 0.0), far = at(gap, second, BEYOND);
+    double farther = at(gap, second.moved(here.outwards), BEYOND);
+    // The middle, if the second gap is not wider (a groove of one cell, the body's end).
+    const bool known = std::isfinite(far) && far > near && !at<Flag>(contact, second, 0);
+    if (!known) {
+        here.located = 0.5, here.slope = 0;
+        return;
+    }
+    if (!std::isfinite(farther)) farther = NONE;
+    double behind = at(gap, second.moved(here.across), BEYOND);
+    double before = at(gap, second.moved(here.across, -1), BEYOND);
+    if (!(std::isfinite(behind) && std::isfinite(before))) behind = before = 0;
+    const auto power = [far](double of) { return std::cbrt(of / far * (of / far)); };
+    here.slope = slope_of(power(behind), power(before), 1.0, power(near));
+    here.located = at_least(1 - (law.distance(near, far, farther) - law.offset(here.slope)), -0.5);
+}
+
+// Where the pressure locates a receding rim.
+void locate_by_pressures(Interval &here, const EdgeLaw &law, const Recession &recession) {
+    if (!(at<Flag>(recession.opens, here.outer, 0) && at<Flag>(recession.falls, here.inner, 0))) return;
+    const Cell second = here.inner.moved(here.outwards, -1);
+    const auto pressure = [&](const Cell &cell) { return at(recession.pressure, cell, 0.0); };
+    const double near = pressure(here.inner), far = pressure(second);
+    const double farther = pressure(second.moved(here.outwards, -1));
+    // A few cells between two rims do not tell them apart.
+    const double beyond = pressure(here.inner.moved(here.outwards, -LEAST_CHORD));
+    if (!(near > 0 && far > near && farther > 0 && beyond > 0)) return;
+    const auto square = [far](double of) { return of / far * (of / far); };
+    const double behind = square(pressure(second.moved(here.across)));
+    const double before = square(pressure(second.moved(here.across, -1)));
+    const double slope = -slope_of(behind, before, 1.0, square(near));
+    const double distance = at_most(law.distance(near, far, farther) - law.offset(slope), 1.5);
+    const bool left = at<Flag>(recession.left, here.outer.moved(here.outwards), 0);
+    if (std::isnan(distance) || !(left || distance < here.located)) return;
+    here.located = distance, here.slope = slope;
+}
+
+// Crossing of a chord between the nearest crossings along the other axis; not a number without both.
+double chord(const Interval &here, const Field<Flag> &contact, const Rim &found) {
+    const bool opens = here.slope > 0;
+    const std::ptrdiff_t up = opens ? 1 : -1;
+    const auto touches = [&](const Cell &cell, std::ptrdiff_t times) {
+        return at<Flag>(contact, cell.moved(here.across, times), 0);
+    };
+    if (!(touches(here.inner, -up) && touches(here.outer, -up))) return NONE;
+    if (touches(here.inner, up) || touches(here.outer, up)) return NONE;
+    const auto &other = here.axis == 0 ? found.along_y : found.along_x;
+    // From the line of centres up to the chord at the inner cell, down to it at the outer one.
+    const double height = at(other, opens ? here.inner : here.inner.moved(here.across, -1), NONE);
+    const double depth = at(other, opens ? here.outer.moved(here.across, -1) : here.outer, NONE);
+    double descent = height + 1 - depth;
+    if (std::abs(descent) < LEAST_DESCENT) descent = LEAST_DESCENT;
+    return height / descent;
+}
+
+std::vector<Interval> changes(const Field<Flag> &contact) {
+    std::vector<Interval> found;
+    const Cell along_x{1, 0}, along_y{0, 1};
+    const auto note = [&](int axis, std::ptrdiff_t i, std::ptrdiff_t j) {
+        const Cell step = axis == 0 ? along_x : along_y, start{i, j}, end = start.moved(step);
+        const bool begins_inside = contact.row(i)[j];
+        Interval here{axis, start, begins_inside ? start : end, begins_inside ? end : start,
+                      {0, 0}, axis == 0 ? along_y : along_x};
+        here.outwards = {here.outer.row - here.inner.row, here.outer.column - here.inner.column};
+        found.push_back(here);
+    };
+    for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
+        const Flag *row = contact.row(i), *next = i + 1 < contact.rows ? contact.row(i + 1) : row;
+        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) {
+            if (row[j] != next[j]) note(0, i, j);
+            if (j + 1 < contact.columns && row[j] != row[j + 1]) note(1, i, j);
+        }
+    }
+    return found;
+}
+
+void fill(const Field<double> &field, double value) {
+    for (std::ptrdiff_t i = 0; i < field.rows; ++i)
+        std::fill(field.row(i), field.row(i) + field.columns, value);
+}
+
+}  // namespace
+
+double EdgeLaw::distance(double first, double second, double third) const {
+    const double b = first_growth, c = second_growth, slack = second - (1 + b) * first;
+    const double t = first < MAX_DISTANCE * slack ? first / slack : MAX_DISTANCE;
+    // Change of t with the curvature, and second and third gap over the slope of the first: by the
+    // law, and what a unit curvature adds.
+    const double shift = -t * (1 + t) / 2;
+    const double second_gap = 1 + (1 + b) * t, third_gap = 2 + b + (1 + b + c) * t;
+    const double second_bend = ((1 + t) * (1 + t) + b * (t * t)) / 2 - (1 + b) * shift;
+    const double third_bend =
+        ((2 + t) * (2 + t) + b * ((1 + t) * (1 + t)) + c * (t * t)) / 2 - (1 + b + c) * shift;
+    const double ratio = std::isnan(third) ? third_gap / second_gap : third / second;
+    const double curvature = (ratio * second_gap - third_gap) / (third_bend - ratio * second_bend);
+    return threshold + t - at_most(at_least(curvature, -MAX_CURVATURE), MAX_CURVATURE) * shift;
+}
+
+double EdgeLaw::offset(double slope) const {
+    const double size = std::abs(slope);
+    if (size >= slopes.back()) return offsets.back();
+    std::size_t k = 0;
+    while (k + 2 < slopes.size() && size >= slopes[k + 1]) ++k;
+    const double part = (offsets[k + 1] - offsets[k]) / (slopes[k + 1] - slopes[k]);
+    return part * (size - slopes[k]) + offsets[k];
+}
+
+void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
+                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends, const Rim &found) {
+    fill(found.along_x, NONE);
+    fill(found.along_y, NONE);
+    const auto &along = [&](int axis) { return axis == 0 ? found.along_x : found.along_y; };
+    std::vector<Interval> oblique;
+    for (Interval &here : changes(contact)) {
+        locate_by_gaps(here, gaps[here.axis], contact, gap);
+        if (recession) locate_by_pressures(here, pressures[here.axis], *recession);
+        if (ends && std::isinf(at(gap, here.outer, BEYOND))) {
+            here.located = at(here.axis == 0 ? ends->along_x : ends->along_y, here.start, NONE);
+            if (std::isnan(here.located)) here.located = 0.5;
+        }
+        // A line that the rim crosses at a small angle does not locate it well.
+        if (std::abs(here.slope) > 1)
+            oblique.push_back(here);
+        else
+            along(here.axis).row(here.start.row)[here.start.column] = here.located;
+    }
+    for (Interval &here : oblique) {
+        const double by_chord = chord(here, contact, found);
+        if (!std::isnan(by_chord)) here.located = by_chord;
+    }
+    for (const Interval &here : oblique)
+        along(here.axis).row(here.start.row)[here.start.column] = here.located;
+}
+
+double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment) {
+    const auto crossing = [](double value) { return std::isnan(value) ? 0.0 : value; };
+    double enclosed = 0;
+    for (std::ptrdiff_t i = 0; i + 1 < contact.rows; ++i) {
+        const Flag *near = contact.row(i), *far = contact.row(i + 1);
+        const double *along_x = rim.along_x.row(i);
+        const double *lower_y = rim.along_y.row(i), *upper_y = rim.along_y.row(i + 1);
+        std::ptrdiff_t whole = 0;
+        for (std::ptrdiff_t j = 0; j + 1 < contact.columns; ++j) {
+            const int corners = near[j] + near[j + 1] + far[j] + far[j + 1];
+            whole += corners == 4;
+            if (corners == 0 || corners == 4) continue;
+            const double left = crossing(along_x[j]), right = crossing(along_x[j + 1]);
+            const double lower = crossing(lower_y[j]), upper = crossing(upper_y[j]);
+            const double u = left + right, v = lower + upper;
+            // One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the
+            // two edges that leave their side. Three: the square without a triangle. Signed areas
+            // where a crossing lies beyond the square: their sum is that of the polygons.
+            if (corners == 1)
+                enclosed += u * v / 2 + segment;
+            else if (corners == 3)
+                enclosed += 1 - (1 - u) * (1 - v) / 2 - segment;
+            else if (near[j] != far[j + 1])
+                enclosed += (u + v) / 2;
+            else  // opposite corners: two separate triangles
+                enclosed += (near[j] ? left * lower + right * upper : left * upper + right * lower) / 2 +
+                            2 * segment;
+        }
+        enclosed += static_cast<double>(whole);
+    }
+    return enclosed;
+}
+
+namespace {
+
+// Extent along one axis, by flags and crossings at (line, place on it).
+template <class Contact, class Crossing>
+double extent(std::ptrdiff_t lines, std::ptrdiff_t places, std::ptrdiff_t first, std::ptrdiff_t last,
+              Contact contact, Crossing crossing) {
+    double begin = static_cast<double>(lines - 1), end = 0;
+    // A crossing lies between half a cell inside and one outside of its inner centre: two lines
+    // contain the extreme ones. A chord may cross its line elsewhere.
+    const auto each = [&](std::ptrdiff_t line, auto note) {
+        for (std::ptrdiff_t at = std::max<std::ptrdiff_t>(line - 1, 0); at < std::min(line + 1, lines - 1); ++at)
+            for (std::ptrdiff_t place = 0; place < places; ++place)
+                if (std::abs(crossing(at, place)) <= 1) note(at, place, static_cast<double>(at));
+    };
+    each(first, [&](std::ptrdiff_t at, std::ptrdiff_t place, double centre) {
+        if (contact(at + 1, place)) begin = std::min(begin, centre + 1 - crossing(at, place));
+    });
+    each(last, [&](std::ptrdiff_t at, std::ptrdiff_t place, double centre) {
+        if (contact(at, place)) end = std::max(end, centre + crossing(at, place));
+    });
+    return end - begin;
+}
+
+}  // namespace
+
+std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells) {
+    std::ptrdiff_t first_row = -1, last_row = -1, first = cells.columns, last = -1;
+    for (std::ptrdiff_t i = 0; i < cells.rows; ++i) {
+        const Flag *row = cells.row(i), *end = row + cells.columns;
+        const Flag *begin = std::find(row, end, Flag(1));
+        if (begin == end) continue;
+        if (first_row < 0) first_row = i;
+        last_row = i;
+        first = std::min<std::ptrdiff_t>(first, begin - row);
+        while (!*(end - 1)) --end;
+        last = std::max<std::ptrdiff_t>(last, end - row - 1);
+    }
+    return {first_row, last_row, last < 0 ? -1 : first, last};
+}
+
+Extents extents(const Field<Flag> &contact, const Rim &rim) {
+    Extents found{0, 0, 0, 0};
+    const auto [first_row, last_row, first_column, last_column] = spans(contact);
+    for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
+        found.rows += std::find(contact.row(i), contact.row(i) + contact.columns, Flag(1)) !=
+                      contact.row(i) + contact.columns;
+    for (std::ptrdiff_t j = 0; j < contact.columns; ++j)
+        for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
+            if (contact.row(i)[j]) {
+                ++found.columns;
+                break;
+            }
+    if (found.rows == 0) return found;
+    found.along_x = extent(
+        contact.rows, contact.columns, first_row, last_row,
+        [&](std::ptrdiff_t line, std::ptrdiff_t place) { return contact.row(line)[place]; },
+        [&](std::ptrdiff_t line, std::ptrdiff_t place) { return rim.along_x.row(line)[place]; });
+    found.along_y = extent(
+        contact.columns, contact.rows, first_column, last_column,
+        [&](std::ptrdiff_t line, std::ptrdiff_t place) { return contact.row(place)[line]; },
+        [&](std::ptrdiff_t line, std::ptrdiff_t place) { return rim.along_y.row(place)[line]; });
+    return found;
+}
+
+std::array<std::ptrdiff_t, 3> chords(const Field<Flag> &contact) {
+    std::array<std::ptrdiff_t, 3> found{};
+    for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
+        const Flag *row = contact.row(i), *before = i ? contact.row(i - 1) : nullptr;
+        std::int32_t cells = 0, along_x = 0, along_y = 0;
+        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) {
+            cells += row[j];
+            along_x += row[j] & !(before && before[j]);
+            along_y += row[j] & !(j && row[j - 1]);
+        }
+        found[0] += cells, found[1] += along_x, found[2] += along_y;
+    }
+    return found;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,54 @@
+// Rim of a contact between cell centres: see rim_crossings.py and straight_edge.py, whose rules these
+// are, interval by interval.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fields.hpp"
+
+namespace viscontact {
+
+// Gaps or pressures next to a straight edge, along lines of the grid that cross it.
+struct EdgeLaw {
+    double threshold, first_growth, second_growth;
+    std::vector<double> slopes, offsets;
+
+    double distance(double first, double second, double third) const;
+    double offset(double slope) const;
+};
+
+// Where a contact recedes; without fields nothing does.
+struct Recession {
+    Field<double> pressure;
+    Field<Flag> falls, opens, left;
+};
+
+struct Rim {
+    Field<double> along_x, along_y;
+};
+
+// Writes the crossings of the rim with the lines along x, shape (nx - 1, ny), and y, (nx, ny - 1).
+// Ends are distances to the body's outline, in fields of these shapes; laws are those along x and y.
+void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
+                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends, const Rim &found);
+
+// Squares between four neighbouring centres that the polygons through the crossings enclose.
+double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment);
+
+// Extents of a contact between its farthest crossings along x and y, in cells, and the numbers of rows and
+// columns that it touches.
+struct Extents {
+    double along_x, along_y;
+    std::ptrdiff_t rows, columns;
+};
+
+Extents extents(const Field<Flag> &contact, const Rim &rim);
+
+// First and last rows and columns with marked cells; -1 without any.
+std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells);
+
+// Cells in contact, and the numbers of chords of consecutive ones along x and y.
+std::array<std::ptrdiff_t, 3> chords(const Field<Flag> &contact);
+
+}  // namespace viscontact
