@@ -202,10 +202,32 @@ def test_error_bars_contain_the_error_of_the_ends(monkeypatch: pytest.MonkeyPatc
         return {each: float(found[f"{each}_error"][0] / found[each][0]) for each in names}
 
     own = bars()
-    monkeypatch.setattr(setup, lambda problem, *, even: 0.1)
+    with monkeypatch.context() as patched:
+        patched.setattr(setup, lambda problem, *, even: 0.1)
+        for name, bar in some(bars().items()):
+            # A bar that is its least one, as that of the area is on few cells, grows by less.
+            assert max(own[name], 0.1) < bar < own[name] + 0.1001
+    left = "viscontact.simulation.transient.setup.stress_left_on_ends"
+    monkeypatch.setattr(left, lambda problem, grid, pressure: 0.1)
     for name, bar in some(bars().items()):
-        # A bar that is its least one, as that of the area is on few cells, grows by less.
         assert max(own[name], 0.1) < bar < own[name] + 0.1001
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum, long steps
+def test_a_result_states_the_stress_that_is_left_on_free_ends() -> None:
+    rubber = vc.Material(vc.Zener(1e6, 2e6, 2e6), 0.45)
+    body, grid = vc.Body(rubber, 1.6e-3), vc.Grid((36, 32), (1.8e-3, 1.6e-3))
+    load = vc.step(0.02, tilt_y=0.0)
+    over_time = vc.simulate(vc.Sphere(0.01), body, load, grid, [0.0, 1.0, 10.0])
+    rolled = vc.steady(vc.Sphere(0.01), body, load, [1e-4, 1e-3], grid=grid)
+    for ds in (over_time, rolled):
+        assert 0 < ds.attrs["end_stress_left"] < 2e-5
+    # The bodies are apart at the end.
+    off = vc.ForceHistory([0.0, 1.0, 2.0], [0.0, 0.02, 0.0])
+    lost = vc.simulate(vc.Sphere(0.01), body, off, grid, [0.5, 1.0, 2.0, 3.0])
+    assert np.isnan(lost.attrs["end_stress_left"])
+    held = vc.simulate(vc.Sphere(0.01), vc.Body(rubber, 1.6e-3, ends="held"), load, grid, [0.0])
+    assert held.attrs["end_stress_left"] == 0.0
 
 
 def test_two_bodies_may_end_at_different_places() -> None:

@@ -62,6 +62,15 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
                 "reciprocity and by what its short sum leaves out), part of those above"
             ),
         )
+    left = float(ds.attrs.get("end_stress_left", 0.0))
+    if left > 0:
+        yield (
+            "Stress left on free ends",
+            (
+                f"{format_bound(left)} of the peak pressure (found by waves across the ends, in "
+                "another way than their operator), part of those above"
+            ),
+        )
     for number, event in enumerate(recorded_events(ds), start=1):
         yield f"Event {number}", event.text
     yield "Error estimation", _coarser_runs(ds)

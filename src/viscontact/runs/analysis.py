@@ -67,6 +67,10 @@ OfSetup = TypeVar("OfSetup", bound=Setup)
 OfStates = TypeVar("OfStates", bound=States)
 
 
+#: Attribute of what a pressure leaves on the free ends of bodies.
+END_STRESS_LEFT = "end_stress_left"
+
+
 @dataclass(frozen=True, eq=False)
 class Analysis(ABC, Generic[OfSetup, OfStates]):
     """Contact problem that has been prepared; `errors` are those of its scalars, if estimated."""

@@ -12,7 +12,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.run_axis import SPEED
-from viscontact.runs.analysis import Analysis
+from viscontact.runs.analysis import END_STRESS_LEFT, Analysis
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.steady_forecast import curve_memory, curve_seconds, steady_forecast
 from viscontact.simulation.accuracy.coarser_results import History
@@ -98,7 +98,8 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:
         """Errors of the scalars, which the curve has found with each speed."""
-        return ErrorBars(errors_by_name(states.bars), ())
+        left = {END_STRESS_LEFT: states.end_stress_left} if self.contact.ended_bodies else {}
+        return ErrorBars(errors_by_name(states.bars), (), left)
 
     def error_bars_so_far(self, states: SteadyCurve, history: History) -> ErrorBars:
         """Errors at the speeds so far."""

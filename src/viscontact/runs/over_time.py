@@ -13,7 +13,7 @@ from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactEvent, ContactState, Outcome
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.results.run_axis import TIME
-from viscontact.runs.analysis import Analysis
+from viscontact.runs.analysis import END_STRESS_LEFT, Analysis
 from viscontact.runs.grid_error import grid_error_rows
 from viscontact.runs.progress_made import progress_made
 from viscontact.runs.run_memory import run_memory
@@ -103,7 +103,13 @@ class OverTime(Analysis[RunSetup, "transient.March"]):
         on_step: Callable[[], None] | None = None,
     ) -> ErrorBars:
         """Errors of the scalars, from coarser runs."""
-        return accuracy.error_bars.error_bars(self.setup.on(grid), history, on_step, issued=issued)
+        setup = self.setup.on(grid)
+        if not self.contact.ended_bodies:
+            return accuracy.error_bars.error_bars(setup, history, on_step, issued=issued)
+        setup = setup.with_stress_left(states.last_reference)
+        bars = accuracy.error_bars.error_bars(setup, history, on_step, issued=issued)
+        stated = {**bars.attributes, END_STRESS_LEFT: setup.end_stress_left}
+        return replace(bars, attributes=stated)
 
     def error_bars_so_far(self, states: transient.March, history: History) -> ErrorBars:
         """Errors that are not known before the end."""

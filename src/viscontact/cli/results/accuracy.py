@@ -39,6 +39,8 @@ def accuracy_lines(ds: Result, names: Sequence[str]) -> Iterator[str]:
     ends_error = float(ds.attrs.get("ends_error", 0.0))
     if ends_error > 0:
         yield f"error of the operator of free ends: {format_bound(ends_error)} of the displacement"
+    if (left := float(ds.attrs.get("end_stress_left", 0.0))) > 0:
+        yield f"stress left on free ends: {format_bound(left)} of the peak pressure"
     if inversion_error > 0:
         yield (
             f"the law was converted numerically; error: {format_bound(inversion_error)} (estimated)"

@@ -1,4 +1,4 @@
-from . import smooth_kernel, strip_basis
+from . import end_certificate, free_end, smooth_kernel, strip, strip_basis
 from .end_correction import EndCorrection, MovingEndCorrection, end_basis, ends_error
 from .periodic_influence import periodic_influence_coefficient
 from .strip_influence import strip_coefficient
@@ -7,9 +7,12 @@ __all__ = [
     "EndCorrection",
     "MovingEndCorrection",
     "end_basis",
+    "end_certificate",
     "ends_error",
+    "free_end",
     "periodic_influence_coefficient",
     "smooth_kernel",
+    "strip",
     "strip_basis",
     "strip_coefficient",
 ]

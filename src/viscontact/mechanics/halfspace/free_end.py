@@ -77,11 +77,11 @@ def end_functions(poisson_ratio: float) -> EndFunctions:
     >>> print(f"{functions.at(np.array(0.5)) @ functions.at(np.array(1.0)):.4f}")
     0.0866
     """
-    panels = LogPanels.over(LOWEST, HIGHEST, RATIO)
+    panels = images(poisson_ratio).panels
     first = int(np.searchsorted(np.exp(panels.edges), NEAREST)) - 1
     known = slice(first * NODES, None)
     near = LogPanels(panels.edges[first:])
-    raw = (_displacement(panels) @ image_density(panels, poisson_ratio))[known, known]
+    raw = (_displacement(panels) @ images(poisson_ratio).density)[known, known]
     # The load that is farther from the corner feels less of what is left out there.
     g = np.triu(raw) + np.triu(raw, 1).T
     factors, left = pivoted_cholesky(np.diagonal(g).copy(), lambda k: g[:, k], NEGLECTED)
@@ -98,9 +98,30 @@ def end_functions(poisson_ratio: float) -> EndFunctions:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Images:
+    """What one face sends to the other, between nodes of panels of X and of Z."""
+
+    panels: LogPanels
+    density: Floats  # (I - A²)^-1 - I at the nodes, under unit line loads at the nodes
+    stress: Floats  # s at the nodes of Z (columns) of unit line loads at those of X (rows)
+
+
+@lru_cache(maxsize=8)
+def images(poisson_ratio: float) -> Images:
+    """Images of loads near a free end."""
+    panels = LogPanels.over(LOWEST, HIGHEST, RATIO)
+    stress = _stress(panels, poisson_ratio)
+    return Images(panels, _density_of(panels, stress), stress)
+
+
 def image_density(panels: LogPanels, poisson_ratio: float) -> Floats:
     """(I - A²)^-1 - I at the nodes X, under a unit line load at the nodes X'."""
-    stress = 2 * _stress(panels, poisson_ratio).T * panels.weights
+    return _density_of(panels, _stress(panels, poisson_ratio))
+
+
+def _density_of(panels: LogPanels, of_loads: Floats) -> Floats:
+    stress = 2 * of_loads.T * panels.weights
     both = stress @ stress
     return np.asarray(np.linalg.solve(np.eye(len(both)) - both, both) / panels.weights)
 

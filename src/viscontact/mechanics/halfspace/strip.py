@@ -73,6 +73,11 @@ class StripTable:
     coefficients: Floats  # Chebyshev's of w G, less its limit; shape (waves, nodes, nodes)
     limit: Floats  # of w G for small w, shape (nodes, nodes)
     error: float  # asymmetry and last coefficients, over the largest w G [-]
+    #: Chebyshev's of the load on the faces that frees them, at the nodes of `face_panels`, and of
+    #: the stress that it sends back to the surface, under lines at the nodes of the surface.
+    faces: Floats
+    tops: Floats
+    face_panels: LogPanels
 
     def weights(self, waves: Floats) -> Floats:
         """Weights of coefficients, then of the limit, in G at w = k W; (waves, coefficients)."""
@@ -80,6 +85,11 @@ class StripTable:
         inside = np.maximum(waves, LOWEST_WAVE)
         powers = chebyshev.chebvander(_scaled(inside), WAVES - 1) / inside[:, None]
         return np.column_stack([powers, 1 / waves])
+
+    def chebyshev(self, wave: float) -> Floats:
+        """Weights of the coefficients of `faces` and `tops` at w = k W."""
+        inside = min(max(wave, LOWEST_WAVE), HIGHEST_WAVE)
+        return np.asarray(chebyshev.chebvander(_scaled(np.array([inside])), WAVES - 1)[0])
 
     @property
     def entries(self) -> Floats:
@@ -112,7 +122,8 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
     middle, half = np.log(LOWEST_WAVE * HIGHEST_WAVE) / 2, np.log(HIGHEST_WAVE / LOWEST_WAVE) / 2
     waves = np.exp(middle + half * np.cos(angles))
-    raw = np.array([wave * _added(wave, poisson_ratio, sign) for wave in waves])
+    parts = [_added(wave, poisson_ratio, sign) for wave in waves]
+    raw = np.array([wave * added for wave, (added, _, _) in zip(waves, parts, strict=True)])
     limit = _plate(poisson_ratio, panels.places, odd=odd)
     # The load that is farther from the face feels less of what is left out there.
     kept = np.triu(raw) + np.triu(raw, 1).swapaxes(1, 2) - limit
@@ -123,7 +134,11 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     skew = np.abs(raw - raw.swapaxes(1, 2))[:, known][:, :, known].max()
     tail = np.abs(coefficients[-2:])[:, known][:, :, known].sum(axis=0).max()
     largest = np.abs(raw).max()
-    return StripTable(panels, coefficients, limit, float((skew + tail) / largest))
+    freed, sent = (
+        np.tensordot(transform, np.array([part[k] for part in parts]), axes=1) for k in (1, 2)
+    )
+    error = float((skew + tail) / largest)
+    return StripTable(panels, coefficients, limit, error, freed, sent, _face().panels)
 
 
 def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
@@ -134,19 +149,22 @@ def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
     return np.asarray(6 * np.outer(arm, arm) / ((1 - poisson_ratio) * (3 + poisson_ratio)))
 
 
-def _added(wave: float, poisson_ratio: float, sign: float) -> Floats:
-    """G at w = k W, between the nodes of the surface."""
+def _added(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floats, Floats]:
+    """G at w = k W, between the nodes of the surface; load on the faces, and stress by it above."""
     face = _face()
     stress = _stress_on_face(wave, poisson_ratio, sign)
     weighted = stress * (wave * _surface().weights)
-    returned = weighted @ _stress_on_surface(wave, poisson_ratio, sign)
+    above = _stress_on_surface(wave, poisson_ratio, sign)
+    returned = weighted @ above
     returned *= face.panels.weights
     freed = np.linalg.solve(np.eye(len(returned)) - returned, stress)
     rate = np.hypot(1.0, face.waves)
     sinh, _, denominator, _ = _slab(rate * wave, sign)
     compliance = 4 / np.pi * face.wave_weights / rate * sinh**2 / denominator
     left, right = face.to_waves @ stress, face.to_waves @ freed
-    return np.asarray(left.T @ (compliance[:, None] * right))
+    sent = above @ (face.panels.weights[:, None] * freed)
+    added = np.asarray(left.T @ (compliance[:, None] * right))
+    return added, np.asarray(freed), sent
 
 
 def _slab(x: Floats, sign: float) -> tuple[Floats, Floats, Floats, Floats]:
@@ -250,7 +268,7 @@ def _face() -> Face:
         waves.imag.copy(),
         zeta,
         weights,
-        _cosine_transform(panels, zeta),
+        cosine_transform(panels, zeta),
     )
 
 
@@ -260,7 +278,7 @@ def _borders(first: float, last: float, ratio: float) -> Floats:
     return np.append(0.0, first * ratio ** np.arange(count + 1))
 
 
-def _cosine_transform(panels: LogPanels, zeta: Floats) -> Floats:
+def cosine_transform(panels: LogPanels, zeta: Floats) -> Floats:
     """Weights of ∫ f cos(ζZ) dZ at the nodes of panels of ln Z; shape (waves, nodes)."""
     blocks = []
     for begin, end in zip(panels.edges[:-1], panels.edges[1:], strict=True):

@@ -216,11 +216,16 @@ def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTe
 
 def ended_term(body: Body, material: Material | Layered) -> SurfaceTerm:
     """Term of a body that ends, with its material at the temperature of the run."""
-    assert isinstance(material, Material)
-    assert material.poisson_ratio is not None  # refused otherwise
+    assert isinstance(material, Material)  # refused otherwise
+    return SurfaceTerm(material.contact_compliance(), ended_response(body))
+
+
+def ended_response(body: Body) -> EndedResponse:
+    """Response of a body that ends."""
+    ratio = body.material.poisson_ratio
+    assert ratio is not None  # refused otherwise
     before, after = (kind == "free" for kind in body.ends)
-    response = EndedResponse(material.poisson_ratio, body.planes, (before, after))
-    return SurfaceTerm(material.contact_compliance(), response)
+    return EndedResponse(ratio, body.planes, (before, after))
 
 
 def as_elastic(body: Layered) -> ElasticStack | None:

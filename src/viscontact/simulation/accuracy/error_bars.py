@@ -255,7 +255,7 @@ def _bar(
     receding = np.where(differs, receding * quotient(own, scale), 0.0)
     relative = np.fmax(relative, receding)
     relative += run.problem.solver_error + max(plan.error for plan in run.plans)
-    relative += run.problem.surface.splitting_error + run.ends_error
+    relative += run.problem.surface.splitting_error + run.error_of_ends
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     if name not in CUMULATIVE:

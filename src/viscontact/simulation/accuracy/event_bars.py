@@ -45,7 +45,7 @@ def segment_end_errors(run: RunSetup, results: list[CoarserResult]) -> Floats:
     levels = RefinementLevels(spacings, rows, by_steps, np.isfinite(rows).all(axis=0))
     methods = run.problem.solver_error + max(plan.error for plan in run.plans)
     methods += run.problem.surface.splitting_error + run.problem.compliance.inversion_error
-    methods += run.ends_error
+    methods += run.error_of_ends
     return np.asarray(INSTANTS.of(levels) + levels.by_steps + methods * own)
 
 

@@ -16,6 +16,7 @@ from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.surface import ended_response
 from viscontact.units.formatting import format_quantity
 
 #: Largest difference of the ends of a roller and of its material, relative to its half length.
@@ -148,6 +149,20 @@ def error_of_ends(problem: Problem, *, even: bool) -> float:
                     halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds
                 )
     return max(errors)
+
+
+def stress_left_on_ends(problem: Problem, grid: Grid, pressure: Floats | None) -> float:
+    """Largest stress that a pressure on the grid leaves on free ends, over its peak [-].
+
+    NaN without a pressure, 0 without free ends.
+    """
+    if not any("free" in body.ends for body in problem.ended_bodies.values()):
+        return 0.0
+    if pressure is None or not pressure.any():
+        return math.nan
+    left = halfspace.end_certificate.stress_left
+    bodies = problem.ended_bodies.values()
+    return max(left(ended_response(body), pressure, grid) for body in bodies)
 
 
 def datum_of_ends_warnings(

@@ -17,7 +17,7 @@ from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.collector import WarningCollector
 from viscontact.simulation.checks.contact_geometry import Geometry
 from viscontact.simulation.checks.covers import covers_of
-from viscontact.simulation.checks.ends import datum_of_ends_warnings
+from viscontact.simulation.checks.ends import datum_of_ends_warnings, stress_left_on_ends
 from viscontact.simulation.checks.friction import coupling_warnings
 from viscontact.simulation.checks.half_space_theory import (
     SINGULAR_KINDS,
@@ -80,6 +80,8 @@ class SteadyCurve:
         self.bars: list[Mapping[str, float | Floats]] = []  # at each speed; empty without errors
         # Convolutions of the solver at each speed, in those of its grid.
         self.work: list[float] = []
+        #: Largest stress left on free ends over the peak pressure, at the speeds so far [-].
+        self.end_stress_left = 0.0
         self.warnings = WarningCollector()
         if restart_data is not None:
             self._restore(restart_data)
@@ -105,11 +107,13 @@ class SteadyCurve:
             "done": self.done,
             "warnings": dict(self.warnings.issued),
             "bars": [dict(each) for each in self.bars],
+            "end_stress_left": self.end_stress_left,
             "before": before and {"pressure": before.pressure, "motion": before.motion},
         }
 
     def _restore(self, data: RestartData) -> None:
         self.done, self.bars = int(data["done"]), list(data["bars"])
+        self.end_stress_left = float(data.get("end_stress_left", 0.0))
         self.warnings.new(data["warnings"])
         if data["before"] is not None:
             last = self.done - 1
@@ -138,13 +142,18 @@ class SteadyCurve:
             passed = grid.cell_size[problem.axis] / speed
             singular = entry_is_singular(problem.contact.compliance, passed)
             singular |= bool(SINGULAR_KINDS & set(found))
-            self.bars.append(self._bars(fine, coarse, singular=singular))
+            self.bars.append(self._bars(contact, fine, coarse, singular=singular))
         self.work.append(work)
         self._before = contact.neighbour
         return fine.state, found
 
     def _bars(
-        self, fine: Measured, coarse: SteadyContact | None, *, singular: bool
+        self,
+        contact: SteadyContact,
+        fine: Measured,
+        coarse: SteadyContact | None,
+        *,
+        singular: bool,
     ) -> Mapping[str, float | Floats]:
         """Error bars, from a contact on a coarser grid if there is one."""
         problem, traction = self._run.problem, fine.state.rolling_traction
@@ -152,7 +161,7 @@ class SteadyCurve:
             return {**unknown_bars(problem), **unknown_traction_bars(traction)}
         other = self._measure(coarse)
         bars: dict[str, float | Floats] = {
-            **error_bars(problem, fine, other, singular=singular, ends=self._run.ends_error)
+            **error_bars(problem, fine, other, singular=singular, ends=self._ends_error(contact))
         }
         if traction is None:
             return bars
@@ -162,6 +171,14 @@ class SteadyCurve:
             return bars | unknown_traction_bars(traction)
         assert rough is not None  # as of the finer contact
         return bars | traction_bars(problem, fine, traction, rough)
+
+    def _ends_error(self, contact: SteadyContact) -> float:
+        """Relative error by free ends: of their operator, and by stress that is left on them."""
+        if not self._run.problem.contact.ended_bodies:
+            return 0.0
+        left = stress_left_on_ends(self._run.problem.contact, contact.grid, contact.pressure)
+        self.end_stress_left = max(self.end_stress_left, left)
+        return self._run.ends_error + left
 
     def _measure(self, contact: SteadyContact) -> Measured:
         problem = self._run.problem

@@ -6,6 +6,7 @@ import logging
 from collections.abc import Iterator
 from dataclasses import replace
 
+from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.grid import Grid
@@ -66,6 +67,15 @@ class March:
     def left(self) -> int:
         """Requested states still to come; an estimate where the run chooses its steps."""
         return self._steps.left
+
+    @property
+    def last_reference(self) -> Floats | None:
+        """Elastic reference ∫ J dp of the last pressure, on the whole grid; None without contact.
+
+        As a pressure times a compliance it is of one sign, and zero where that is.
+        """
+        found = self._stepper.last_reference
+        return None if found is None else self._domain.expand_by_symmetry(found)
 
     def restart_data(self) -> RestartData:
         """Return the state after a step as plain data."""

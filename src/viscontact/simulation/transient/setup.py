@@ -31,6 +31,7 @@ from viscontact.simulation.checks.ends import (
     check_grid_of_ends,
     check_tilt_of_ends,
     error_of_ends,
+    stress_left_on_ends,
     tilts_from_datum,
 )
 from viscontact.simulation.checks.friction import check_friction, check_grid_of_friction
@@ -66,6 +67,8 @@ class RunSetup:
     inner_loops: str  # compiled ones or those of NumPy, which a run keeps, too
     other_terms: tuple[HereditaryPlan, ...] = ()  # of layers that creep differently
     law: CohesiveLaw | None = None  # attraction of bodies that adhere
+    #: Stress that the pressure at the end leaves on free ends, over its peak, once it is known [-].
+    end_stress_left: float = 0.0
 
     @property
     def plans(self) -> tuple[HereditaryPlan, ...]:
@@ -98,6 +101,16 @@ class RunSetup:
     def ends_error(self) -> float:
         """Part of the displacement by free ends that their operator may miss; 0 without [-]."""
         return error_of_ends(self.problem, even=self.mirrored[0])
+
+    @property
+    def error_of_ends(self) -> float:
+        """Relative error by free ends: of their operator, and by stress that is left on them."""
+        return self.ends_error + float(np.nan_to_num(self.end_stress_left))
+
+    def with_stress_left(self, pressure: Floats | None) -> RunSetup:
+        """Return the run with what a pressure on its grid leaves on free ends."""
+        left = stress_left_on_ends(self.problem, self.grid, pressure)
+        return replace(self, end_stress_left=left)
 
     def on(self, grid: Grid) -> RunSetup:
         """Return the same run on another grid."""

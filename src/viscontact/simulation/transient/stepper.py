@@ -153,6 +153,11 @@ class Stepper:
         """Go on under another load, which is the same up to the last step."""
         self._run = replace(self._run, problem=replace(self._run.problem, load=load))
 
+    @property
+    def last_reference(self) -> Floats | None:
+        """Elastic reference of the last pressure on the domain's cells; None without contact."""
+        return self._references[-1].fields[0] if self._references else None
+
     def restart_data(self) -> RestartData:
         """Return the state after an accepted step as plain data."""
         return {
