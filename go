@@ -28,6 +28,7 @@ STAMP = VENV / "go-stamp"  # written last: without it the environment is incompl
 LOG = VENV / "go-setup.log"
 CORE = ROOT / "src" / "core"  # sources of the compiled core, and the script that compiles it
 CORE_STAMP = VENV / "go-core-stamp"  # what was compiled, or could not be
+TOOLS = VENV / "go-tools"  # what compiles it for the demo, only meanwhile
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 OLDEST = (3, 11)
 AT_ONCE = 16  # packages between two lines about what is left
@@ -206,8 +207,13 @@ TASKS = {
 #: Tasks for which the packages of the demo are enough.
 COMPUTING = ("demo", "viscontact")
 
-#: Packages of the locks that are installed only where the compilation of the core lacks them.
+#: Packages that are installed only where the compilation of the core lacks them; for the demo, of
+#: which they would be a sixth, only meanwhile.
 BUILD_TOOLS = ("cmake",)
+
+# A package that is built here would use files without hashes. The locks are complete. Byte code of
+# all modules would take a fifth of the space; what is imported is compiled then.
+HASHED_WHEELS = ["--only-binary", ":all:", "--no-deps", "--no-compile", "--require-hashes"]
 
 
 # --- environment ------------------------------------------------------------------------------
@@ -226,18 +232,18 @@ def is_ready(task: str) -> bool:
     enough = [LOCK, DEMO_LOCK] if task in COMPUTING else [LOCK]
     if STAMP.read_text() not in map(fingerprint, enough):
         return False
-    return task != "setup" or not lacking(PYTHON)  # a compiler may be new here
+    return task != "setup" or not lacked(PYTHON)  # a compiler may be new here
 
 
 def set_up(lock: Path) -> None:
     """Create the environment, or update it; an incomplete one is created again."""
-    uv = shutil.which("uv")
+    uv, pip = shutil.which("uv"), installer()
     make = [uv, "venv", "--python", sys.executable] if uv else [sys.executable, "-m", "venv"]
-    pip = [uv, "pip", "install"] if uv else [str(PYTHON), "-m", "pip", "install"]
-    into = ["--python", str(PYTHON)] if uv else []
     # An environment created by uv has no pip, so it cannot be updated without uv.
     updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
-    packages = [each for each in locked_packages(lock) if is_wanted(each)]
+    lacking = lacked(Path(sys.executable)) if lock == LOCK else []
+    packages = [each for each in locked_packages(lock) if name_of(each) not in BUILD_TOOLS]
+    packages += [each for each in locked_packages(lock) if name_of(each) in lacking]
     doing = "bringing .venv up to date" if updating else "setting up .venv, once"
     print(f"go: {doing}: {len(packages)} packages", flush=True)
     for stamp in (STAMP, CORE_STAMP):
@@ -249,15 +255,12 @@ def set_up(lock: Path) -> None:
     part = VENV / "go-part.txt"
     for done in range(0, len(packages), AT_ONCE):
         part.write_text("".join(packages[done : done + AT_ONCE]), encoding="utf-8")
-        # A package that is built here would use files without hashes. The lock is complete. Byte
-        # code of all modules would take a fifth of the space; what is imported is compiled then.
-        wheels = ["--only-binary", ":all:", "--no-deps", "--no-compile"]
-        install(pip, [*into, *wheels, "--require-hashes", "-r", str(part)])
+        install(pip, [*HASHED_WHEELS, "-r", str(part)])
         show_left(max(len(packages) - done - AT_ONCE, 0))
     # The build backend is in the lock; an isolated build would download another one. The core is
     # compiled afterwards, which says why if it cannot be.
     project = ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)]
-    install(pip, [*into, *project], VISCONTACT_CORE="off")
+    install(pip, project, VISCONTACT_CORE="off")
     STAMP.write_text(fingerprint(lock))
 
 
@@ -266,13 +269,19 @@ def locked_packages(lock: Path) -> list[str]:
     return re.split(r"^(?=\w)", lock.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
 
 
-def is_wanted(package: str) -> bool:
-    """Return whether to install an entry of a lock: a build tool only where one is lacking."""
-    name = re.split(r"[= ]", package, maxsplit=1)[0]
-    return name not in BUILD_TOOLS or name in lacking(Path(sys.executable))
+def name_of(package: str) -> str:
+    """Return the name in an entry of a lock."""
+    return re.split(r"[= ]", package, maxsplit=1)[0]
 
 
-def lacking(python: Path) -> list[str]:
+def installer() -> list[str]:
+    """Return the command that installs packages into the environment."""
+    uv = shutil.which("uv")
+    into = ["--python", str(PYTHON)]
+    return [uv, "pip", "install", *into] if uv else [str(PYTHON), "-m", "pip", "install"]
+
+
+def lacked(python: Path) -> list[str]:
     """Return the build tools that compiling the core needs here, and that are not installed."""
     return core_script(python, "--lacks").stdout.split()
 
@@ -280,7 +289,9 @@ def lacking(python: Path) -> list[str]:
 def core_script(python: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Run the script that compiles the core."""
     asked = [str(python), str(CORE / "compile_core.py"), *words]
-    return subprocess.run(asked, env=clean(), text=True, capture_output=True, errors="replace")
+    path = os.pathsep.join([str(TOOLS / "cmake" / "data" / "bin"), os.environ.get("PATH", "")])
+    given = clean() | {"PATH": path}
+    return subprocess.run(asked, env=given, text=True, capture_output=True, errors="replace")
 
 
 def core_fingerprint() -> str:
@@ -299,12 +310,20 @@ def compile_core() -> None:
     if os.environ.get("VISCONTACT_CORE") == "off":
         return
     print("go: compiling the core", flush=True)
-    done = core_script(PYTHON)
-    if done.returncode == 0:
-        print("go: the core is compiled", flush=True)
-    else:
-        said = (done.stdout or done.stderr).strip().splitlines() or ["no reason given"]
-        print(f"go: no compiled core, so runs use NumPy: {said[-1]}", flush=True)
+    try:
+        if lacking := lacked(PYTHON):
+            part = VENV / "go-part.txt"
+            tools = [each for each in locked_packages(DEMO_LOCK) if name_of(each) in lacking]
+            part.write_text("".join(tools), encoding="utf-8")
+            install(installer(), [*HASHED_WHEELS, "--target", str(TOOLS), "-r", str(part)])
+        done = core_script(PYTHON)
+        failed, said = done.returncode != 0, (done.stdout or done.stderr).strip()
+    except TaskError as error:  # no network, say: the demo goes on
+        failed, said = True, str(error)
+    shutil.rmtree(TOOLS, ignore_errors=True)
+    reason = said.splitlines()[-1] if said else "no reason given"
+    ended = f"no compiled core, so runs use NumPy: {reason}" if failed else "the core is compiled"
+    print(f"go: {ended}", flush=True)
     CORE_STAMP.write_text(core_fingerprint())
 
 

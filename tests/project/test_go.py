@@ -51,7 +51,7 @@ def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     (tmp_path / "requirements.lock").write_text("numpy==2.2\nruff==0.9\n")
     (tmp_path / "requirements-demo.lock").write_text("numpy==2.2\n")
     (tmp_path / "pyproject.toml").write_text("")
-    for name in ("LOCK", "DEMO_LOCK", "VENV", "STAMP", "LOG", "PYTHON", "CORE_STAMP"):
+    for name in ("LOCK", "DEMO_LOCK", "VENV", "STAMP", "LOG", "PYTHON", "CORE_STAMP", "TOOLS"):
         inside = getattr(module, name).relative_to(module.ROOT)
         monkeypatch.setattr(module, name, tmp_path / inside)
     monkeypatch.setattr(module, "ROOT", tmp_path)
@@ -352,7 +352,39 @@ def test_build_tools_are_installed_where_they_are_lacking_only(
     go.main(["test"])  # computes without
     assert installer.packages == ["numpy==2.2"]
     go.main(["setup"])
-    assert installer.packages[1:] == ["cmake==4.4", "numpy==2.2"]
+    assert installer.packages[1:3] == ["numpy==2.2", "cmake==4.4"]
+
+
+def test_the_demo_has_build_tools_while_the_core_is_compiled_only(
+    go: ModuleType, installer: Installer
+) -> None:
+    (go.ROOT / "requirements-demo.lock").write_text("cmake==4.4\nnumpy==2.2\n")
+    go.core_script.lacking = "cmake"
+    go.TOOLS.mkdir(parents=True)
+    go.main(["demo"])
+    assert installer.packages == ["numpy==2.2", "cmake==4.4"]
+    assert f"--require-hashes --target {go.TOOLS}" in installer.asked[-1]
+    assert go.core_script.times == 1
+    assert not go.TOOLS.exists()
+
+
+def test_build_tools_that_cannot_be_installed_stop_nothing(
+    go: ModuleType,
+    installer: Installer,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    go.main(["demo"])
+    (go.CORE / "a.cpp").write_text("int x;")
+    go.core_script.lacking = "cmake"
+
+    def offline(*asked: object, **added: str) -> None:
+        raise go.TaskError("the package index could not be reached")
+
+    monkeypatch.setattr(go, "install", offline)
+    assert go.main(["demo"]) == 0
+    said = "go: no compiled core, so runs use NumPy: the package index could not be reached\n"
+    assert said in capsys.readouterr().out
 
 
 # --- the lock -----------------------------------------------------------------------------------
