@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -63,6 +64,18 @@ print(compiled.core, compiled.kernels())
     done = process("", "-c", script)
     assert done.stdout.startswith("None NumPy (no compiled core: "), done.stderr
     assert "not built" not in done.stdout
+
+
+def test_a_core_that_is_not_built_leaves_numpy_and_says_so(tmp_path: Path) -> None:
+    for module in Path(compiled.__file__).parent.glob("*.py"):
+        shutil.copy(module, tmp_path)
+    script = f"""
+import viscontact.backend as backend
+backend.__path__[:] = [{str(tmp_path)!r}]
+from viscontact.backend import compiled
+print(compiled.core, compiled.kernels())
+"""
+    assert process("", "-c", script).stdout == "None NumPy (no compiled core: it is not built)\n"
 
 
 def test_a_core_of_other_sources_is_not_used(tmp_path: Path) -> None:

@@ -34,7 +34,8 @@ absent = ""
 try:
     if _choice == "off":
         raise ImportError(f"{VARIABLE} is off")
-    from viscontact.backend import _core
+    # Not `from viscontact.backend import`, which does not tell a missing module from a faulty one.
+    import viscontact.backend._core as _core
 
     if _core.INTERFACE != INTERFACE:  # a checkout was renewed, and its core not yet
         raise ImportError("it was built of other sources")
