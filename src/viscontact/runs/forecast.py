@@ -9,12 +9,14 @@ import numpy as np
 
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
+from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint, MixedHistory
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.run_memory import run_memory
+from viscontact.simulation import checks
 from viscontact.simulation.accuracy.coarser_ratios import usual_coarsening
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
@@ -25,10 +27,11 @@ from viscontact.simulation.transient.setup import RunSetup
 FIRST_STEP, LATER_STEP, STEP_OVERHEAD = 30.0, 3.5, 3e-3
 
 #: Steps of bodies that adhere beyond the given ones, which a way into contact and off it takes, in
-#: the middle; time of each step in times of a plain convolution, and its overhead [s]; measured on
-#: spheres, elastic and creeping, and a rough surface. At large Tabor numbers of elastic bodies a
-#: step takes up to five times as long.
-ADHESIVE_STEPS, ADHESIVE_STEP, ADHESIVE_OVERHEAD = 170.0, 10.0, 6e-3
+#: the middle: without jumps, and what jumps add, in proportion to the Tabor number up to 1; time of
+#: each step in times of a plain convolution, and its overhead [s]; measured on spheres, elastic and
+#: creeping, and a rough surface. At large Tabor numbers of elastic bodies a step takes up to five
+#: times as long.
+ADHESIVE_STEPS, JUMPING_STEPS, ADHESIVE_STEP, ADHESIVE_OVERHEAD = 60.0, 120.0, 10.0, 4e-3
 
 #: Cells up to which a convolution is timed; for larger grids the time is extrapolated.
 _TIMED_CELLS = 2**18
@@ -107,8 +110,10 @@ def run_seconds(run: RunSetup, *, errors: bool) -> float:
     load = run.problem.load
     if isinstance(load, MixedHistory) and load.program is not None:
         marches.append(marches[0])  # the first time to find the events
-    march = _march_seconds if run.law is None else _adhesive_seconds
-    return sum(march(count, one) for count, one in marches)
+    if run.law is None:
+        return sum(_march_seconds(count, one) for count, one in marches)
+    further = _further_steps(run.law, run.problem)
+    return sum(_adhesive_seconds(count + further, one) for count, one in marches)
 
 
 def _march_seconds(steps: float, convolution: float) -> float:
@@ -117,8 +122,15 @@ def _march_seconds(steps: float, convolution: float) -> float:
 
 
 def _adhesive_seconds(steps: float, convolution: float) -> float:
-    """The same of bodies that adhere, which take further steps where their force changes much."""
-    return (steps + ADHESIVE_STEPS) * (ADHESIVE_STEP * convolution + ADHESIVE_OVERHEAD)
+    """The same of bodies that adhere [s]."""
+    return steps * (ADHESIVE_STEP * convolution + ADHESIVE_OVERHEAD)
+
+
+def _further_steps(law: CohesiveLaw, problem: Problem) -> float:
+    """Steps of bodies that adhere where their force changes much."""
+    numbers = checks.adhesive_limits.tabor_numbers(law, problem)
+    jumps = 1.0 if numbers is None else min(numbers[1], 1.0)
+    return ADHESIVE_STEPS + jumps * JUMPING_STEPS
 
 
 def convolution_time(grid: Grid) -> float:

@@ -13,7 +13,7 @@ from closeness import close_to
 from viscontact.bodies.loads import harmonic
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
-from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, stretch_at
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, plan_steps
 from viscontact.mechanics.time_integration.requested_times import adaptive_times
 
@@ -185,3 +185,35 @@ def test_unit_of_time_changes_no_step(power):
         return [each.time / scale for each in taken]
 
     assert ends(2.0**power) == ends(1.0)
+
+
+def test_stretches_lie_between_kinks_and_are_cycles_of_a_curved_load():
+    load = ApproachHistory([0.0, 1.0, 100.0, 101.0], [0.0, 1e-6, 1e-6, -1e-6])
+    ends = [(0.0, 1.0), (0.5, 1.0), (1.0, 99.0), (100.0, 1.0), (100.9, 1.0)]
+    assert [stretch_at(load, time, 200.0) for time, _ in ends] == close_to(
+        [length for _, length in ends]
+    )
+    assert stretch_at(load, 100.0, 100.5) == close_to(0.5)
+    cycles = harmonic(2.0, 0.5, 0.25, 100)
+    assert 0.1 < stretch_at(cycles, 3.0, 25.0) < 0.5
+
+
+def test_a_jump_of_the_contact_takes_a_part_of_its_stretch_after_a_long_rest():
+    load = ApproachHistory([0.0, 1000.0, 1001.0], [1e-6, 1e-6, -1e-6])
+    steps = AdaptiveSteps(adaptive_times(1001.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    shortest = 0.0
+    while (each := steps.next_step()) is not None:
+        passes = each.time - each.duration < 1000.5 < each.time
+        shortest = each.duration if passes and each.is_shortest else shortest
+        steps.accept_step(0.0, math.inf if passes and not each.is_shortest else 0.0)
+    assert 1e-6 < shortest <= 1e-5
+
+
+def test_a_step_is_repeated_with_a_duration_at_most():
+    steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), ramp(1.0, 10.0), KELVIN)
+    steps.accept_step(0.0)
+    first = steps.next_step()
+    steps.repeat_shorter(math.inf, 0.3 * first.duration)
+    assert steps.next_step().duration == close_to(0.3 * first.duration)
+    steps.repeat_shorter(1.4, math.inf)
+    assert steps.next_step().duration == close_to(0.15 * first.duration)

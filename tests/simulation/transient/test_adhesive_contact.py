@@ -14,6 +14,7 @@ from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.state import Outcome
 from viscontact.reference import maugis_dugdale, tabor_number
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
+from viscontact.simulation.transient.adhesive_contact import AdhesiveContact
 from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import prepare_run
 
@@ -170,6 +171,29 @@ def test_pull_off_of_a_creeping_body_grows_with_speed():
     assert pulls == sorted(pulls)
     assert pulls[0] > 1.7
     assert pulls[-1] < 10 * 1.664
+
+
+def test_steps_grow_beyond_the_relaxation_without_being_repeated(monkeypatch):
+    # A sphere that has rested is withdrawn in 700 relaxation times, so slowly that it holds what an
+    # elastic one does. Steps that are long against the law follow on one another without detours.
+    lengths, solve = [], AdhesiveContact.solve
+
+    def counted(self, step, *given):
+        found = solve(self, step, *given)
+        lengths.append(step.duration)
+        return found
+
+    monkeypatch.setattr(AdhesiveContact, "solve", counted)
+    load, end = retraction(5e-3)
+    found = run(load, [0.0, 1.0, 31.0, end], ZENER, cells=24)
+    # Shorter ones would be 2000, and as many that are repeated.
+    assert len(lengths) < 600
+    assert max(lengths) > 5.0
+    times = [0.0, 31.0, end]
+    levels = load.approach_at(np.array(times))
+    elastic = run(vc.ApproachHistory(times, levels), times, GEL, cells=24)
+    pull = elastic.attrs["pull_off_force"]
+    assert found.attrs["pull_off_force"] == close_to(pull, rel=1e-2)
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Floats, Numbers
 
 
 def gmres(
-    image: Callable[[Floats], Floats], right: Floats, goal: float, max_vectors: int
+    image: Callable[[Numbers], Numbers], right: Numbers, goal: float, max_vectors: int
 ) -> tuple[Floats, int]:
     """Factors of the basis vectors with which images leave least of a right side, and their number.
 
@@ -54,6 +54,6 @@ def gmres(
     return factors, number
 
 
-def norm(vector: Floats) -> float:
+def norm(vector: Numbers) -> float:
     """Euclidean norm, not by BLAS, which would start threads."""
     return float(np.sqrt(np.einsum("i,i->", vector, vector)))

@@ -163,7 +163,7 @@ class RigidPlane:
             for rows in lines
         ]
 
-    def sums(self, values: Floats) -> Floats:
+    def sums(self, values: Numbers) -> Floats:
         """Sums of a field against 1, x and y."""
         return added(self.each(lambda block: block.sums_of_rows(values[block.rows])))
 

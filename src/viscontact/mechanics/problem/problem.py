@@ -80,8 +80,8 @@ SOLVER_ERROR_FACTOR = 3.0
 BODIES = ("half-space material", "indenter material")
 
 #: Error of the time steps between given times of an adhesive contact [-], and the shortest one of
-#: them, over the run: a jump takes one.
-ADHESIVE_STEP_TOLERANCE, SHORTEST_ADHESIVE_STEP = 1e-3, 1e-6
+#: them, over the stretch of the load from kink to kink: a jump takes one.
+ADHESIVE_STEP_TOLERANCE, SHORTEST_ADHESIVE_STEP = 1e-3, 1e-5
 
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
@@ -432,9 +432,7 @@ class Problem:
         return time_integration.AdaptiveSteps(
             *(chosen, self.instants, self.history, creep, marks, self.surface.clocks),
             shown=None if self.adaptive else self.instants,
-            least=time_integration.MIN_STEP_FRACTION
-            if self.adhesion is None
-            else SHORTEST_ADHESIVE_STEP,
+            jumps_in=None if self.adhesion is None else SHORTEST_ADHESIVE_STEP,
         )
 
     @cached_property

@@ -1,11 +1,10 @@
 from . import default_times, prony_approximation
-from .adaptive_steps import MIN_STEP_FRACTION, AdaptiveSteps, estimated_steps
+from .adaptive_steps import AdaptiveSteps, estimated_steps
 from .boltzmann_sum import BLOCK_STEPS, BoltzmannSum
 from .internal_variables import InternalVariables
 
 __all__ = [
     "BLOCK_STEPS",
-    "MIN_STEP_FRACTION",
     "AdaptiveSteps",
     "BoltzmannSum",
     "InternalVariables",

@@ -40,6 +40,9 @@ MIN_STEP_FRACTION = 1e-12
 #: Longest first step after a kink, as a part of the interval to the next kink.
 FIRST_STEP_FRACTION = 0.02
 
+#: Longest steps of a curved load in one of its stretches: about a cycle.
+CYCLE_STEPS = 64.0
+
 #: Steps from one kink of the load to the next at a tolerance of 1e-3, and for an elastic body;
 #: measured on spheres, within a factor of two.
 STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
@@ -63,13 +66,26 @@ def estimated_steps(
     return stretches * each + divided + cycles
 
 
+def stretch_at(load: LoadHistory, time: float, end: float) -> float:
+    """Length of the stretch between kinks of a load that a time is in, or begins, until an end [s].
+
+    A load that is curved has kinks at long intervals, and stretches as long as its cycles.
+    """
+    kinks = np.append(load.kinks[load.kinks < end], end)
+    after = int(np.searchsorted(kinks, time, side="right"))
+    begin = float(kinks[after - 1]) if after else 0.0
+    stretch = float(kinks[min(after, len(kinks) - 1)]) - begin if time < end else end
+    return min(stretch or end, CYCLE_STEPS * load.longest_step)
+
+
 class AdaptiveSteps:
     """Controller that chooses each step by the error of the last one."""
 
     # `stops` are times to be hit, in addition to the load's kinks and the end; `marks` are times at
     # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
     # Over a step the rates of the clocks change little. States are requested at the end of each
-    # step, or at the `shown` times only [s]; `least` is the shortest step as a part of the run.
+    # step, or at the `shown` times only [s]. The shortest step is a part of the run, or the part
+    # `jumps_in` of the stretch of the load that it lies in: a jump of the contact takes one.
 
     def __init__(  # noqa: PLR0913
         self,
@@ -81,7 +97,7 @@ class AdaptiveSteps:
         clocks: Sequence[Clock] = (),
         *,
         shown: Floats | None = None,
-        least: float = MIN_STEP_FRACTION,
+        jumps_in: float | None = None,
     ) -> None:
         self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
@@ -96,7 +112,7 @@ class AdaptiveSteps:
         given = None if shown is None else shown.tolist()
         #: Requested times by the ends of the steps there; None: at the end of each step.
         self._shown = None if given is None else {snap_to_kink(t, stopping): t for t in given}
-        self._least = least
+        self._jumps_in = jumps_in
         inner = {stop for stop in stopping.tolist() if stop < self._end}
         self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
@@ -152,6 +168,15 @@ class AdaptiveSteps:
         self._advance(step, jumped=math.isinf(change))
         return True
 
+    def repeat_shorter(self, change: float, longest: float) -> None:
+        """Choose a shorter step, by a change as in `accept_step`, or of a duration at most [s]."""
+        if math.isinf(longest):
+            self.accept_step(0.0, change)
+            return
+        assert self._step is not None  # there was one that is too long
+        self._duration = longest
+        self._step = self._next_step(self._step.smooth)
+
     def restart_data(self) -> RestartData:
         """Restart data of the controller."""
         return {
@@ -170,7 +195,9 @@ class AdaptiveSteps:
 
     def _is_shortest(self, duration: float) -> bool:
         """True if a step is not to be shortened [s]."""
-        return duration <= self._least * self._end
+        if self._jumps_in is None:
+            return duration <= MIN_STEP_FRACTION * self._end
+        return duration <= self._jumps_in * stretch_at(self._load, self._time, self._end)
 
     def _state_at(self, time: float) -> float | None:
         """Requested time of a state at the end of a step [s]; None without one."""

@@ -13,6 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import Condition, MixedHistory
 from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP
 from viscontact.mechanics.state import EventKind
+from viscontact.mechanics.time_integration.adaptive_steps import stretch_at
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
 from viscontact.simulation.accuracy.error_models import (
     INSTANTS,
@@ -81,12 +82,13 @@ def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, An
         "pull_off_force_error": float(force),
         "pull_off_time_error": float(np.fmax(time, flat)),
     }
-    shortest = SHORTEST_ADHESIVE_STEP * run.problem.end
+    load, end = run.problem.contact_load, run.problem.end
     errors: dict[str, list[float]] = {}
     for kind in get_args(EventKind):
         if len({len(each.times_of(kind)) for each in results}) == 1:
-            jumps = _from_grids(results, methodcaller("times_of", kind)) + shortest
-            errors[kind] = jumps.tolist()
+            times = results[0].times_of(kind)
+            steps = [SHORTEST_ADHESIVE_STEP * stretch_at(load, each, end) for each in times]
+            errors[kind] = (_from_grids(results, methodcaller("times_of", kind)) + steps).tolist()
     return found | {JUMP_TIME_ERRORS: errors}
 
 

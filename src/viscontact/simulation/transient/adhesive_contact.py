@@ -39,6 +39,10 @@ LARGEST_CHANGE, CHANGE_WHERE_MET = 0.15, 0.005
 #: largest pull within a tenth of this error.
 LARGEST_ERROR, ERROR_ORDER = 0.01, 3
 
+#: The same where the prediction is the state before, as behind a kink of the load: its error is the
+#: change, which a shorter step divides. There the pull is not the largest one.
+LARGEST_FIRST_CHANGE = 0.03
+
 #: Largest change with a law that ends abruptly: its front crosses cell after cell, which no
 #: extrapolation foresees.
 ABRUPT_CHANGE = 0.02
@@ -98,7 +102,8 @@ class AdhesiveContact:
             predicted = self._sum(guess.pressure)
             start, is_last = Guess(guess.values, motion), step.is_shortest or step.is_jump
             near = solve_near(problem, self._domain, start, self._tolerance, is_last=is_last)
-            change = self._length(near, predicted) if near.converged else math.inf
+            is_near = near.converged
+            change = self._length(near, predicted, smooth=step.smooth) if is_near else math.inf
             jumps = not near.converged or self._change(near) > JUMP
             if change <= 1.0 or (step.is_shortest and not jumps):
                 return AdhesiveStep(problem, near, _outcome(near), change)
@@ -181,13 +186,15 @@ class AdhesiveContact:
         """Change of the force since the last step, over the scale of forces [-]."""
         return self._apart(solution, self._force, self._attraction)
 
-    def _length(self, solution: AdhesiveSolution, predicted: float) -> float:
+    def _length(self, solution: AdhesiveSolution, predicted: float, *, smooth: bool) -> float:
         """Length of a step over the longest one, from its change and the predicted force [N]."""
         if self._law.is_abrupt:
             return self._change(solution) / ABRUPT_CHANGE
         pulled = float(solution.predicted) * self._domain.whole.cell_area
         error = self._apart(solution, predicted, pulled * self._domain.symmetry_count)
         by_error = float(np.power(error / LARGEST_ERROR, 1 / ERROR_ORDER))
+        if not smooth:
+            by_error = error / LARGEST_FIRST_CHANGE
         meets = bool(solution.in_contact.any()) != self._touches
         largest = CHANGE_WHERE_MET if meets else LARGEST_CHANGE
         return max(by_error, self._change(solution) / largest)

@@ -26,7 +26,7 @@ from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP, Problem
 from viscontact.mechanics.state import ContactState, Outcome
-from viscontact.mechanics.time_integration.adaptive_steps import MIN_STEP_FRACTION, AdaptiveSteps
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.simulation.transient.contact_events import PULL_OFF_MARGIN
@@ -130,7 +130,8 @@ class EventSearch:
             try:
                 solved = self._solve(step)
             except StepTooLongError as found:
-                steps.accept_step(0.0, found.change)
+                assert isinstance(steps, AdaptiveSteps)  # of bodies that adhere
+                steps.repeat_shorter(found.change, found.longest)
                 continue
             if not steps.accept_step(solved.trial.error.relative, solved.trial.change):
                 continue
@@ -194,9 +195,9 @@ class EventSearch:
             stops = wanted[(wanted > self._course.begin + margin) & (wanted < end - margin)]
         surface = self._run.problem.surface
         load = replace(self._run.problem, load=history).contact_load
-        least = MIN_STEP_FRACTION if self._run.law is None else SHORTEST_ADHESIVE_STEP
+        jumps_in = None if self._run.law is None else SHORTEST_ADHESIVE_STEP
         steps = AdaptiveSteps(
-            *(request, stops, load, surface.creep), clocks=surface.clocks, least=least
+            *(request, stops, load, surface.creep), clocks=surface.clocks, jumps_in=jumps_in
         )
         last = self._last
         begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}

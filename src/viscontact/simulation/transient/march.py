@@ -10,6 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
 from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.grid import Grid
+from viscontact.mechanics import time_integration
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.state import ContactState, Outcome
@@ -110,7 +111,8 @@ class March:
             try:
                 trial = self._stepper.trial(step)
             except StepTooLongError as found:
-                self._steps.accept_step(0.0, found.change)
+                assert isinstance(self._steps, time_integration.AdaptiveSteps)  # of adhesion
+                self._steps.repeat_shorter(found.change, found.longest)
                 continue
             if self._outgrows(step, trial):
                 continue  # the same step again, on the larger grid

@@ -39,6 +39,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import response_t
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
+from viscontact.mechanics.time_integration.step_shape import MAX_TREND_GROWTH
 from viscontact.simulation import transient
 from viscontact.simulation.transient.frictionless import JointSlip, Uncoupled
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
@@ -49,6 +50,10 @@ from viscontact.simulation.transient.surface_history import SurfaceHistory, Surf
 #: Errors are relative to the displacement that the pressure causes, but to no less than this part
 #: of the largest displacement so far, where rounding would dominate [-].
 PAST_DISPLACEMENT_WEIGHT = 1e-3
+
+#: Part of a step over which it may hold its value after its rise where the last one rose to its
+#: end; part of the longest hold that a shorter step aims at, as its rise is somewhat shorter, too.
+LARGEST_FIRST_HOLD, HOLD_SAFETY = 0.01, 0.8
 
 #: Samples each way within a cell in the search for the body's lowest point; even, so that they
 #: include the cell's edges and corners.
@@ -98,9 +103,9 @@ class TrialStep:
 class StepTooLongError(Exception):
     """A step that has to be shorter before it can be solved."""
 
-    def __init__(self, change: float) -> None:
-        """Take the change of the force over the largest one of a step [-]."""
-        self.change = change
+    def __init__(self, change: float, *, longest: float = math.inf) -> None:
+        """Take the change of the force over the largest one of a step [-], and a duration [s]."""
+        self.change, self.longest = change, longest
 
 
 class Stepper:
@@ -120,10 +125,14 @@ class Stepper:
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
         self._adhesive = _adhesive_contact(run, domain)
+        #: Part of the last step after its rise [s].
+        self._slow = 0.0
 
     def trial(self, step: TimeStep) -> TrialStep:
         """Solve a step without accepting it; StepTooLongError if it has to be shorter."""
         posed = self._step_problem(step)
+        if self._adhesive is not None:
+            self._refuse_levelling(step, posed.response)
         adhesive, joint = self._solve_adhesive(step, posed), None
         if adhesive is None:
             solution, outcome, joint = self._solve_step(step, posed)
@@ -167,6 +176,7 @@ class Stepper:
             "scale": self._scale,
             "references": [vars(reference) for reference in self._references],
             "motion": self._motion,
+            "slow": self._slow,
             "adhesive": self._adhesive and self._adhesive.restart_data(),
         }
 
@@ -177,7 +187,7 @@ class Stepper:
         self._errors.restore(restart_data["errors"])
         self._scale = restart_data["scale"]
         self._references = [ElasticReference(**each) for each in restart_data["references"]]
-        self._motion = restart_data["motion"]
+        self._motion, self._slow = restart_data["motion"], restart_data.get("slow", 0.0)
         if self._adhesive is not None:
             self._adhesive.restore(restart_data["adhesive"])
 
@@ -231,6 +241,7 @@ class Stepper:
             known = [] if jumps else self._reference_history(step)
             self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
         self._motion = trial.solution.motion
+        self._slow = trial.response.slow * step.duration
         loss = self._loss(trial.pairs)
         self._history.accept(trial.pairs)
         self._force_memory.accept(_force(trial.point))
@@ -322,6 +333,17 @@ class Stepper:
         plane = self._domain.whole.plane
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
         return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
+
+    def _refuse_levelling(self, step: TimeStep, response: SurfaceStep) -> None:
+        """StepTooLongError for a step that holds its value long where others continue a trend."""
+        # Its error is of first order. A somewhat shorter one goes over to steps that are long
+        # against the law, or continues their trend, and needs no solution to be found.
+        held = response.first.held * step.duration
+        longest = max(MAX_TREND_GROWTH * self._slow, LARGEST_FIRST_HOLD * step.duration)
+        if not step.smooth or held <= longest or step.is_shortest:
+            return
+        rise = step.duration - held
+        raise StepTooLongError(math.inf, longest=rise + HOLD_SAFETY * longest)
 
     def _solve_adhesive(self, step: TimeStep, posed: StepProblem) -> transient.AdhesiveStep | None:
         """Solve the equilibrium of bodies that adhere (step 3); None without adhesion."""

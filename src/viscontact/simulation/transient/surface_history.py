@@ -53,6 +53,11 @@ class SurfaceStep:
         return not any(term.history[1].any() for term in self.terms)
 
     @property
+    def slow(self) -> float:
+        """Part of the step after the rise of the pressure [-]."""
+        return max(self.first.held, self.first.trended)
+
+    @property
     def weights(self) -> tuple[float, ...]:
         """Compliances b_m of the new pressure [1/Pa]."""
         return tuple(term.compliance for term in self.terms)

@@ -107,6 +107,23 @@ def test_given_forces_are_held_up_to_the_pull_off_force(law):
     assert solve_from(beyond, sphere.domain, last.traction, 1e-7) is None
 
 
+def test_search_beyond_the_last_state_ends_when_its_contacts_repeat():
+    # Past the last state Newton's method goes to and fro between two sets of cells in contact.
+    sphere = Sphere("exponential", 1.0, 64, 6.0)
+    last = sphere.retracted(np.array([-0.8, -0.88, -0.94, -0.958]) * DEPTH)[-1]
+    gone = -0.96 * DEPTH
+    ended = []
+    for approach in np.linspace(-0.9585, -1.0, 12) * DEPTH:
+        problem = sphere.problem(approach=approach)
+        guess = Guess(last.values.copy(), np.array([approach, 0.0, 0.0]))
+        found = newton_search(problem, sphere.domain, guess, 1e-9, max_steps=40)
+        if approach < gone and not found.converged:
+            ended.append(found.steps)
+    # Others reach the state of bodies that have parted.
+    assert 2 <= len(ended) < 12
+    assert max(ended) < 10
+
+
 def test_descent_keeps_order_and_lowers_the_energy():
     sphere = Sphere("exponential", 1.0, 48, 5.0)
     problem = sphere.problem(approach=-0.2)

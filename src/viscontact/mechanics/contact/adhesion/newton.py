@@ -17,9 +17,11 @@ balances.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Floats, Singles
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
@@ -48,6 +50,10 @@ INNER_TOLERANCE = 0.5
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
+
+#: Part of the residual of two steps before, on the same cells in contact, from which on a search
+#: goes in circles [-].
+CYCLING = 0.5
 
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
@@ -78,68 +84,107 @@ def newton_search(
     """
     iterate, convolutions = start, 0
     checked = residual_of(problem, domain, iterate)
-    if checked.error <= tolerance:
-        domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
-        checked = residual_of(problem, domain, iterate)
-        convolutions = 1
-    least = checked.error
     predicted = float(checked.attraction.traction.sum())
-    for step in range(max_steps):
-        if checked.error <= tolerance:
-            return NewtonSearch(iterate, checked, step, convolutions, True, predicted)
-        if not checked.error <= DIVERGED * max(least, tolerance):
+    is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
+    sets = CycleOfSets()
+    for step in range(max_steps + 1):
+        if is_guess and (checked.error <= tolerance or step == max_steps):
+            domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+            checked = residual_of(problem, domain, iterate)
+            is_guess, convolutions = False, convolutions + 1
+        converged = checked.error <= tolerance
+        least = min(least, checked.error)
+        diverges = not checked.error <= DIVERGED * max(least, tolerance)
+        if converged or diverges or step == max_steps or sets.repeats(checked):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
         reduction = REDUCTION if checked.error <= NEAR else REDUCTION_AFAR
-        motion = iterate.motion + system.solve(iterate.pressure, reduction)
-        iterate = Guess(iterate.values, motion)
-        domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+        motion = system.solve(iterate, reduction)
+        iterate, is_guess = Guess(iterate.values, motion), system.is_whole
+        if not is_guess:
+            domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+            convolutions += 1
         checked = residual_of(problem, domain, iterate)
-        least = min(least, checked.error)
-        convolutions += system.convolutions + 1
-    converged = checked.error <= tolerance
-    return NewtonSearch(iterate, checked, max_steps, convolutions, converged, predicted)
+        convolutions += system.convolutions
+    if is_guess:
+        domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+        convolutions += 1
+    return NewtonSearch(iterate, checked, step, convolutions, converged, predicted)
+
+
+class CycleOfSets:
+    """Sets of cells in contact of a search, which goes in circles where a state has ended."""
+
+    def __init__(self) -> None:
+        self._known: list[tuple[Bools, float]] = []
+
+    def repeats(self, checked: AdhesiveResidual) -> bool:
+        """True if the set is that of two steps before, not that of the last one, and no better."""
+        now = checked.in_contact, checked.error
+        before, self._known = self._known, [*self._known[-1:], now]
+        if len(before) < 2:
+            return False
+        (first, error), (last, _) = before
+        back = np.array_equal(now[0], first) and not np.array_equal(now[0], last)
+        return back and checked.error >= CYCLING * error
 
 
 class LinearStep:
-    """Linear equations of one Newton step on a patch."""
+    """Linear equations of one Newton step on a patch, of all cells: those left alone keep p."""
+
+    # Fields, not lists of cells: mostly all of a patch are attracted, and to pick them out takes
+    # longer than to compute with the others.
 
     def __init__(
         self,
         problem: AdhesiveProblem,
+        domain: ContactDomain,
         patch: Patch,
         cells: tuple[Bools, Bools],
         checked: AdhesiveResidual,
         lacking: Floats,
         goal: float,
-        periodic: tuple[bool, bool] = (False, False),
     ) -> None:
         """Take the cells in contact and those attracted, the residual, and where to end [Pa]."""
-        self._patch, self._cells, self.convolutions = patch, cells[0] | cells[1], 0
-        self._contact = cells[0][self._cells]
-        self._goal, self._compliance = goal, problem.contact.compliance
-        self._spacing = float(np.sqrt(patch.cell_area))
-        self._free = problem.contact.constraints.free
-        slope = checked.attraction.slope[self._cells]
-        #: Factor of a change of the gap in each equation [Pa/m].
-        self._of_gap = np.where(self._contact, 1 / (self._compliance * self._spacing), slope)
+        contact, pulled = cells
+        self._patch, self._goal, self.convolutions = patch, goal, 0
+        along_x, along_y = domain.periodic
+        whole_x, whole_y = (a == b for a, b in zip(patch.shape, domain.shape, strict=True))
+        self._periodic = along_x and whole_x, along_y and whole_y
+        #: True if the patch is the whole grid, so that `solve` changes the displacement, too.
+        self.is_whole = whole_x and whole_y
+        compliance, spacing = problem.contact.compliance, float(np.sqrt(patch.cell_area))
+        self._free, self._compliance = problem.contact.constraints.free, compliance
+        self._contact = np.flatnonzero(contact)
+        slope = np.where(pulled, checked.attraction.slope, 0.0)
+        self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
+        #: Factor of a change of the gap, per unit compliance, in each equation [1/m].
+        self._of_gap = (compliance * slope + contact / spacing).astype(np.float32)
+        self._open = np.where(contact, 0.0, 1.0).astype(np.float32)
         #: Equations of cells whose attraction grows with the gap are stiff [-].
-        self._stiffness = 1 + np.maximum(slope, 0.0) * self._compliance * self._spacing
-        self._across = [each[self._cells] for each in checked.attraction.slopes_across]
-        self._periodic = periodic
-        self._gap = checked.gap[self._cells]
-        self._traction = checked.attraction.traction[self._cells]
+        stiff = 1 + np.maximum(slope, 0.0) * (compliance * spacing)
+        self._softened = (self._open / stiff).astype(np.float32)
+        across = checked.attraction.slopes_across
+        self._across = [
+            np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
+        ]
+        self._spacing = np.float32(spacing)
         self._lacking = lacking / patch.cell_area
+        if self._free.any():
+            self._balance(problem.spring / patch.cell_area)
+
+    def _balance(self, spring: float) -> None:
+        """Prepare how much of each free motion meets what is lacking; stiffness by area [N/m³]."""
+        patch = self._patch
         modes = (patch.plane.field(unit) for unit in np.eye(3))
-        self._planes = [np.broadcast_to(mode, patch.shape)[self._cells] for mode in modes]
+        self._planes = [np.broadcast_to(mode, patch.shape) for mode in modes]
         self._shares = [self._share(mode) for mode in range(3)]
-        matrix = np.array([self._sums(share) for share in self._shares]).T
-        matrix[0, 0] += problem.spring / patch.cell_area
+        matrix = np.array([patch.plane.sums(share) for share in self._shares]).T
+        matrix[0, 0] += spring
         fixed = ~self._free
         matrix[fixed], matrix[:, fixed] = 0.0, 0.0
         matrix[fixed, fixed] = 1.0
         self._inverse = np.linalg.pinv(matrix)
-        self._spring = problem.spring / patch.cell_area
 
     @classmethod
     def of(
@@ -169,80 +214,77 @@ class LinearStep:
         cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
         lacking = problem.lacking(iterate, domain)
         goal = INNER_TOLERANCE * tolerance * scale
-        along_x, along_y = domain.periodic
-        whole_x, whole_y = (a == b for a, b in zip(patch.shape, domain.shape, strict=True))
-        periodic = along_x and whole_x, along_y and whole_y
-        return cls(problem, patch, cells, cut, lacking, goal, periodic)
+        return cls(problem, domain, patch, cells, cut, lacking, goal)
 
-    def solve(self, pressure: Floats, reduction: float) -> Floats:
-        """Add the change to a pressure on the whole grid [Pa]; return that of the motion."""
-        here = self._patch.cut(pressure)
-        missing = -(here[self._cells] + self._traction)
-        right = np.where(self._contact, -self._gap * self._of_gap, missing)
-        directions: list[tuple[Floats, Floats]] = []
+    def solve(self, iterate: Guess, reduction: float) -> Floats:
+        """Add the change to the pressure of an iterate; return its motion.
 
-        def image(vector: Floats) -> Floats:
-            directions.append(self._direction(vector, np.zeros(3)))
-            return self._image(*directions[-1])
+        On the whole grid the displacement follows, in the precision of the search.
+        """
+        here, everywhere = self._patch.cut(iterate.pressure), iterate.unit_displacement
+        right = np.where(self._pulled, -(here + self._traction), 0.0).astype(np.float32)
+        gap = self._gap.ravel()[self._contact] / (self._compliance * float(self._spacing))
+        right.ravel()[self._contact] = -gap
+        taken: list[tuple[Singles, Singles, Floats]] = []
 
-        change, motion = self._direction(right, self._lacking)
-        left = right - self._image(change, motion)
-        goal = max(reduction * norm(right), self._goal)
-        factors, _ = gmres(image, left, goal, MAX_VECTORS)
-        for factor, (direction, moved) in zip(factors, directions, strict=True):
-            change += factor * direction
+        def image(vector: Singles, lacking: Floats) -> Singles:
+            change, motion = self._direction(vector.reshape(right.shape), lacking)
+            lifted = np.empty(right.shape, np.float32)
+            self._patch.convolution.apply(change, into=lifted)
+            self.convolutions += 1
+            taken.append((change, lifted, motion))
+            return self._image(*taken[-1]).ravel()
+
+        left = right.ravel() - image(right, self._lacking)
+        goal = max(reduction * norm(right.ravel()), self._goal)
+        factors, _ = gmres(lambda vector: image(vector, np.zeros(3)), left, goal, MAX_VECTORS)
+        motion = iterate.motion
+        for factor, (change, lifted, moved) in zip([1.0, *factors], taken, strict=True):
+            here += factor * change
             motion = motion + factor * moved
-        here[self._cells] += change
+            if self.is_whole:
+                everywhere += factor * lifted
         return motion
 
-    def _direction(self, vector: Floats, lacking: Floats) -> tuple[Floats, Floats]:
+    def _direction(self, vector: Singles, lacking: Floats) -> tuple[Singles, Floats]:
         """Preconditioned change of pressure [Pa] and of the motion for a residual [Pa]."""
         change = self._preconditioned(vector)
         if not self._free.any():
             return change, np.zeros(3)
-        motion = self._inverse @ np.where(self._free, lacking - self._sums(change), 0.0)
+        sums = self._patch.plane.sums(change)
+        motion = self._inverse @ np.where(self._free, lacking - sums, 0.0)
         for part, share in zip(motion, self._shares, strict=True):
             if part:
-                change += part * share
+                change += np.float32(part) * share
         return change, motion
 
-    def _image(self, change: Floats, motion: Floats) -> Floats:
-        """Left sides of the equations for a change [Pa]."""
-        field = np.zeros(self._patch.shape)
-        field[self._cells] = change
-        self.convolutions += 1
-        opened = self._compliance * self._patch.convolution.apply(field)
+    def _image(self, change: Singles, lifted: Singles, motion: Floats) -> Singles:
+        """Left sides of the equations for a change [Pa] and its unit displacement [Pa m]."""
+        opened = lifted
         if motion.any():
-            opened = opened - self._patch.plane.field(motion)
-        found = self._of_gap * opened[self._cells]
-        pulled = ~self._contact
-        found[pulled] += change[pulled]
+            opened = lifted - self._patch.plane.field(motion / self._compliance, np.float32)
+        found = opened * self._of_gap
+        found += self._open * change
         changes = changes_over_cells(opened, self._periodic) if self._across else ()
         for factor, each in zip(self._across, changes, strict=True):
-            found[pulled] += (factor * each[self._cells])[pulled]
+            found += factor * each
         return found
 
-    def _preconditioned(self, vector: Floats) -> Floats:
+    def _preconditioned(self, vector: Singles) -> Singles:
         """About the pressure that a residual calls for [Pa]."""
-        attracted = vector / self._stiffness
-        if not self._contact.any():
-            return attracted
-        field = np.zeros(self._patch.shape)
-        field[self._cells] = np.where(self._contact, vector, 0.0) * self._spacing
-        pressed = self._patch.preconditioner.apply(field)[self._cells]
-        return np.where(self._contact, pressed, attracted)
+        found = vector * self._softened
+        if self._contact.size:
+            field = np.zeros(vector.shape, np.float32)
+            field.ravel()[self._contact] = vector.ravel()[self._contact] * self._spacing
+            self._patch.preconditioner.apply(field, into=field)
+            found.ravel()[self._contact] = field.ravel()[self._contact]
+        return found
 
-    def _share(self, mode: int) -> Floats:
+    def _share(self, mode: int) -> Singles:
         """About the pressure by a unit of one rigid motion: of cells in contact, if there are."""
         if not self._free[mode]:
-            return np.zeros(self._contact.shape)
-        pressed = self._of_gap * self._planes[mode]
-        if self._contact.any():
-            pressed = np.where(self._contact, pressed, 0.0)
-        return self._preconditioned(pressed)
-
-    def _sums(self, change: Floats) -> Floats:
-        """Sums of a change against 1, x, y."""
-        field = np.zeros(self._patch.shape)
-        field[self._cells] = change
-        return self._patch.plane.sums(field)
+            return np.zeros(self._patch.shape, np.float32)
+        pressed = self._of_gap * self._planes[mode] / self._compliance
+        if self._contact.size:
+            pressed *= 1 - self._open
+        return self._preconditioned(pressed.astype(np.float32))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -98,10 +98,10 @@ def attraction(law: CohesiveLaw, gap: Floats, periodic: tuple[bool, bool]) -> At
     )
 
 
-def changes_over_cells(gap: Floats, periodic: tuple[bool, bool]) -> tuple[Floats, Floats]:
+def changes_over_cells(gap: Numbers, periodic: tuple[bool, bool]) -> tuple[Numbers, Numbers]:
     """Changes of a gap over a cell along both axes [m], by central differences."""
 
-    def along(axis: int) -> Floats:
+    def along(axis: int) -> Numbers:
         ends = [(1, 1) if each == axis else (0, 0) for each in (0, 1)]
         padded = np.pad(gap, ends, mode="wrap" if periodic[axis] else "edge")
         lines = np.moveaxis(padded, axis, 0)
