@@ -25,7 +25,10 @@ def case_of(ds: Result) -> dict[str, Any]:
 
 def is_layered(results: Result, part: str = "material") -> bool:
     """True if a body of a result, the pressed one or the half-space, has layers."""
-    return (case_of(results).get(part) or {}).get("type") == "Layered"
+    body = case_of(results).get(part) or {}
+    if body.get("type") == "Body":
+        body = body["material"]
+    return body.get("type") == "Layered"
 
 
 def has_ends(results: Result, part: str = "material") -> bool:

@@ -11,6 +11,9 @@ from viscontact.bodies.materials.material import Material
 from viscontact.units.display import Displayable
 from viscontact.units.numbers import check_fields, finite, store
 
+if TYPE_CHECKING:
+    from viscontact.bodies.materials.layers import Layered
+
 #: What a body is at an end: free of stress, or held by a frictionless wall.
 END_KINDS = ("free", "held")
 
@@ -24,8 +27,9 @@ class Body(Displayable):
 
     Parameters
     ----------
-    material : Material
-        Its material, with a constant Poisson's ratio.
+    material : Material or Layered
+        Its material, with a constant Poisson's ratio; or layers that creep alike, bonded to each
+        other and to a rigid base, which end on both sides.
     length : float
         Length along x [m]; one end alone lies at half of it from the centre.
     centre : float, keyword only
@@ -58,7 +62,7 @@ class Body(Displayable):
     (None, 0.03)
     """
 
-    material: Material
+    material: Material | Layered
     length: float = field(metadata={"unit": "m"})
     centre: float = field(default=0.0, kw_only=True, metadata={"unit": "m"})
     ends: tuple[str | None, str | None] = field(default=("free", "free"), kw_only=True)
@@ -67,7 +71,7 @@ class Body(Displayable):
 
         def __init__(
             self,
-            material: Material,
+            material: Material | Layered,
             length: float,
             *,
             centre: float = 0.0,
@@ -75,10 +79,12 @@ class Body(Displayable):
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        if not isinstance(self.material, Material):
-            what = "; layers that end are not available" if hasattr(self.material, "layers") else ""
-            raise ValueError(f"Body: material must be a Material, got {self.material!r}{what}")
-        if self.material.poisson_ratio is None:
+        given: Any = self.material
+        layered = hasattr(given, "layers")  # whose module imports this one
+        if not (layered or isinstance(given, Material)):
+            raise ValueError(f"Body: material must be a Material or Layered, got {given!r}")
+        parts = given.materials if layered else (given,)
+        if any(part.poisson_ratio is None for part in parts):
             raise ValueError(
                 "Body: material must have a constant poisson_ratio, as what an end adds depends on "
                 "it, got an elastic bulk modulus; write Material(law, poisson_ratio)"
@@ -86,6 +92,22 @@ class Body(Displayable):
         check_fields(self, "length")
         check_fields(self, "centre", check=finite)
         store(self, ends=_pair_of_kinds(self.ends))
+        if layered:
+            self._check_layers()
+
+    def _check_layers(self) -> None:
+        """Refuse layers whose ends are not available."""
+        given: Any = self.material
+        if given.base != "rigid" or not all(given.bonded):
+            raise ValueError(
+                "Body: layers that end must be bonded to each other and to a rigid base, as what "
+                "an end adds is not known otherwise; write base='rigid', or leave the ends out"
+            )
+        if None in self.ends:
+            raise ValueError(
+                f"Body: layers end on both sides, got ends {self.ends}; give both, with a length "
+                "of some thicknesses more than the contact"
+            )
 
     @property
     def planes(self) -> tuple[float | None, float | None]:

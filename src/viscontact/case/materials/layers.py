@@ -19,11 +19,12 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.bodies.materials import library
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layer as BuiltLayer
 from viscontact.bodies.materials.layers import Layered
-from viscontact.case.materials.base import Medium
+from viscontact.case.materials.base import INCOMPLETE_END, Ends, Medium
 from viscontact.case.materials.material import AnyMaterial, Laws, OrName, from_library
-from viscontact.case.quantities import Expansion, Length, Section, Temperature
+from viscontact.case.quantities import Expansion, Length, Offset, Section, Temperature
 from viscontact.case.section_choice import ChosenBy
 
 #: Word for a base that does not yield.
@@ -177,10 +178,25 @@ class Layers(Section):
         "friction; one for all, or one for each",
     )
 
+    length: Length | None = Field(
+        default=None, description="of the body along x, where it ends; goes with ends"
+    )
+    centre: Offset | None = Field(
+        default=None, description="position x of the middle of a body that ends; 0 when left out"
+    )
+    ends: Ends | None = Field(
+        default=None,
+        description="planes across x at which layers on a rigid base end: free of stress, or held "
+        "by a wall without friction; one kind for both, or a pair, that at -x first",
+        examples=["free"],
+    )
+
     @property
-    def body(self) -> Layered:
+    def body(self) -> Layered | Body:
         """The body."""
-        return self.built
+        if self.ends is None or self.length is None:
+            return self.built
+        return Body(self.built, self.length, centre=self.centre or 0.0, ends=self.ends)
 
     @cached_property
     def built(self) -> Layered:
@@ -224,7 +240,11 @@ class Layers(Section):
                 "bonded: must be true or false, or one of them for each of the "
                 f"{len(self.layers)} layers, got {len(self.bonded)}"
             )
-        _ = self.built
+        if (self.ends is None) != (self.length is None):
+            raise ValueError(f"{'length' if self.length is None else 'ends'}: {INCOMPLETE_END}")
+        if self.centre is not None and self.ends is None:
+            raise ValueError("centre: is that of a body that ends; give 'length' and 'ends', too")
+        _ = self.body
         return self
 
 

@@ -1,4 +1,4 @@
-from . import end_certificate, free_end, smooth_kernel, strip, strip_basis
+from . import end_certificate, free_end, layer_end, smooth_kernel, strip, strip_basis
 from .end_correction import EndCorrection, MovingEndCorrection, end_basis, ends_error
 from .periodic_influence import periodic_influence_coefficient
 from .strip_influence import strip_coefficient
@@ -10,6 +10,7 @@ __all__ = [
     "end_certificate",
     "ends_error",
     "free_end",
+    "layer_end",
     "periodic_influence_coefficient",
     "smooth_kernel",
     "strip",

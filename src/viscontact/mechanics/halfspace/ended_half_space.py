@@ -12,6 +12,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Field
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.convolution import Convolution
+from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
@@ -37,6 +38,32 @@ class EndedResponse(HalfSpaceResponse):
     poisson_ratio: float
     planes: tuple[float | None, float | None]  # at -x and at +x [m]; None: it goes on
     free: tuple[bool, bool]  # free of stress; otherwise held by a frictionless wall
+
+
+@dataclass(frozen=True)
+class EndedLayers(EndedResponse):
+    """Layers on a rigid base that end at two planes across x."""
+
+    stack: ElasticStack
+
+    @property
+    def long_waves(self) -> float:  # type: ignore[override]
+        """Limit of L for long waves, which the base does not let pass [-]."""
+        return self.stack.long_waves
+
+    @property
+    def length(self) -> float:  # type: ignore[override]
+        """Thickness of the thinnest layer [m]."""
+        return self.stack.length
+
+    def ratio(self, wave_number: Numbers) -> Numbers:
+        """L at wave numbers [1/m], far from the ends."""
+        return self.stack.ratio(wave_number)
+
+    @property
+    def mean_displacement(self) -> float:
+        """Displacement per uniform p and J, without strain across [m]."""
+        return self.stack.mean_displacement
 
 
 def parts_of(response: SurfaceResponse) -> list[tuple[SurfaceResponse, float]]:
@@ -104,7 +131,8 @@ def ended_rows(
     if before is not None and after is not None:
         # With the datum of a grid that is periodic.
         period = 2 * (after - before)
-        table = periodic_layered_table((period, shape[1]), cell_size, HALF_SPACE, width)
+        endless = response.stack if isinstance(response, EndedLayers) else HALF_SPACE
+        table = periodic_layered_table((period, shape[1]), cell_size, endless, width)
     return EndedRows(borders, table, bases, begin)
 
 
@@ -143,9 +171,11 @@ def _bases_of_ends(
     if not rows or not any(free):
         return ()
     if before is not None and after is not None:
-        strip = halfspace.strip_basis.StripRows(after - before, free)
+        stack = response.stack if isinstance(response, EndedLayers) else None
+        strip = halfspace.strip_basis.StripRows(after - before, free, stack)
         inside = range(rows.start - before, rows.stop - before)
         shared = (ratio, strip, inside, cell_size, width)
+        stack = response.stack if isinstance(response, EndedLayers) else None
         return tuple(
             halfspace.strip_basis.strip_basis(*shared, odd=odd, longest=longest)
             for odd in strip.kinds

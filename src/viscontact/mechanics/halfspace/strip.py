@@ -92,6 +92,11 @@ class StripTable:
         return np.asarray(chebyshev.chebvander(_scaled(np.array([inside])), WAVES - 1)[0])
 
     @property
+    def highest_wave(self) -> float:
+        """Largest k W of the table."""
+        return HIGHEST_WAVE
+
+    @property
     def entries(self) -> Floats:
         """Coefficients and limit, shape (coefficients, nodes, nodes)."""
         return np.concatenate([self.coefficients, self.limit[None]])
@@ -118,7 +123,7 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     0.0965
     """
     sign = -1.0 if odd else 1.0
-    panels = _surface()
+    panels = surface_panels()
     angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
     middle, half = np.log(LOWEST_WAVE * HIGHEST_WAVE) / 2, np.log(HIGHEST_WAVE / LOWEST_WAVE) / 2
     waves = np.exp(middle + half * np.cos(angles))
@@ -153,7 +158,7 @@ def _added(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floa
     """G at w = k W, between the nodes of the surface; load on the faces, and stress by it above."""
     face = _face()
     stress = _stress_on_face(wave, poisson_ratio, sign)
-    weighted = stress * (wave * _surface().weights)
+    weighted = stress * (wave * surface_panels().weights)
     above = _stress_on_surface(wave, poisson_ratio, sign)
     returned = weighted @ above
     returned *= face.panels.weights
@@ -179,7 +184,7 @@ def _slab(x: Floats, sign: float) -> tuple[Floats, Floats, Floats, Floats]:
 
 def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """T: normal stress at nodes of the face (rows) under lines at distances X from it (columns)."""
-    face, along = _face(), wave * _surface().places
+    face, along = _face(), wave * surface_panels().places
     depth = face.panels.places[:, None]
     order_0, radial = _bessel_functions(wave)
     # ∫ K_0 from Z on, not from ∫ until Z and its whole, which would lose digits far away.
@@ -202,7 +207,7 @@ def _images(rate: Floats, wave: float, along: Floats, sign: float) -> Floats:
 
 def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """F: normal stress at distances X from a face (rows) under lines at its nodes (columns)."""
-    face, surface = _face(), _surface()
+    face, surface = _face(), surface_panels()
     depth, along = face.panels.places, wave * surface.places[:, None]
     order_0, radial = (each.T for each in _bessel_functions(wave))
     until = wave * (surface.integrals_until(order_0) + ON_SURFACE * scipy.special.k0(depth))
@@ -224,7 +229,7 @@ def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats
 @lru_cache(maxsize=WAVES)
 def _bessel_functions(wave: float) -> tuple[Floats, Floats]:
     """K_0(R) and K_2(R)/R² between nodes of the face (rows) and of the surface (columns)."""
-    distance = np.hypot(_face().panels.places[:, None], wave * _surface().places)
+    distance = np.hypot(_face().panels.places[:, None], wave * surface_panels().places)
     order_0 = scipy.special.k0(distance)
     order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
     return order_0, np.asarray(order_2 / distance**2)
@@ -249,7 +254,7 @@ class Face:
 
 
 @lru_cache(maxsize=1)
-def _surface() -> LogPanels:
+def surface_panels() -> LogPanels:
     """Panels of the distance from a face over W, up to the middle."""
     return LogPanels.over(ON_SURFACE, 1.0, RATIO)
 

@@ -11,16 +11,23 @@ where the distance D is free, as the body has no datum.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics import halfspace
+from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.end_correction import FIRST_WAVE, NODES, EndBasis, row_means
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.free_end import HIGHEST, end_functions, pivoted_cholesky
 from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
-from viscontact.mechanics.halfspace.strip import HIGHEST_WAVE, strip_table
+from viscontact.mechanics.halfspace.strip import StripTable, strip_table
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.halfspace.layer_end import LayerTable
 
 #: Largest entry that a basis may leave out, relative to the largest one.
 NEGLECTED = 1e-8
@@ -32,6 +39,7 @@ class StripRows:
 
     count: int
     free: tuple[bool, bool]  # at -x and at +x; otherwise a plane about which pressure is even
+    stack: ElasticStack | None = None  # layers on a rigid base in place of a half-space
 
     @property
     def half_length(self) -> float:
@@ -105,16 +113,17 @@ def strip_basis(
     `width` is the grid's size along y, at which the limit of long waves displaces nothing [m],
     `longest` a length on which the compliance of waves varies, under a moving load [m].
     """
-    table = strip_table(poisson_ratio, odd=odd)
     half_length = strip.half_length * cell_size[0]
+    table = _table_of(poisson_ratio, strip.stack, half_length, odd=odd)
     distance, signs = strip.from_face(rows)
     signs = signs[:, None] if odd else np.ones((len(rows), 1))
     means = signs * _cell_means(table.panels, distance, strip.half_length)
-    borders = _borders(half_length, max(width, longest), cell_size[0])
+    highest = table.highest_wave / half_length
+    borders = _borders(highest, max(half_length, width, longest), cell_size[0])
     waves, measures = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at a wave number.
     waves, measures = np.append(borders[0] / np.e, waves), np.append(borders[0], measures)
-    long = waves * half_length < HIGHEST_WAVE
+    long = waves < highest
     of_table = table.weights(waves[long] * half_length)
     near = range(int(distance.min()), int(distance.max()) + 1)
     functions, order = end_functions(poisson_ratio), distance.astype(int) - near.start
@@ -145,10 +154,19 @@ def strip_basis(
     )
 
 
-def _borders(half_length: float, width: float, edge: float) -> Floats:
+def _table_of(
+    poisson_ratio: float, stack: ElasticStack | None, half_length: float, *, odd: bool
+) -> StripTable | LayerTable:
+    """What two free faces add, of a half-space or of layers on a rigid base."""
+    if stack is None:
+        return strip_table(poisson_ratio, odd=odd)
+    # The same for all grids: their cells add up to the length, to rounding.
+    return halfspace.layer_end.layer_table(stack, float(f"{half_length:.10g}"), odd=odd)
+
+
+def _borders(middle: float, width: float, edge: float) -> Floats:
     """Borders of panels of wave numbers, in powers of two about that of the longest lone one."""
-    middle = HIGHEST_WAVE / half_length
-    lowest, highest = FIRST_WAVE / max(half_length, width), 2 * HIGHEST / edge
+    lowest, highest = FIRST_WAVE / width, 2 * HIGHEST / edge
     powers = np.arange(np.floor(np.log2(lowest / middle)), np.ceil(np.log2(highest / middle)) + 1)
     return np.asarray(middle * 2.0**powers)
 

@@ -32,7 +32,7 @@ from viscontact.bodies.materials.layers import Layered, materials_of, without_en
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics import problem
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     SummedResponse,
@@ -216,16 +216,25 @@ def terms_of(body: Material | Layered, span: Span = ANY_TIMES) -> list[SurfaceTe
 
 def ended_term(body: Body, material: Material | Layered) -> SurfaceTerm:
     """Term of a body that ends, with its material at the temperature of the run."""
-    assert isinstance(material, Material)  # refused otherwise
-    return SurfaceTerm(material.contact_compliance(), ended_response(body))
+    top = materials_of(material)[0]
+    return SurfaceTerm(top.contact_compliance(), ended_response(body, material))
 
 
-def ended_response(body: Body) -> EndedResponse:
-    """Response of a body that ends."""
-    ratio = body.material.poisson_ratio
+def ended_response(body: Body, material: Material | Layered) -> EndedResponse:
+    """Response of a body that ends, with its material at the temperature of the run."""
+    ratio = materials_of(material)[0].poisson_ratio
     assert ratio is not None  # refused otherwise
     before, after = (kind == "free" for kind in body.ends)
-    return EndedResponse(ratio, body.planes, (before, after))
+    shared = (ratio, body.planes, (before, after))
+    if isinstance(material, Material):
+        return EndedResponse(*shared)
+    stack = as_elastic(material)
+    if stack is None:
+        raise ValueError(
+            "ends: the layers of a body that ends must creep alike, at constant Poisson's ratios, "
+            "as what an end adds is not known otherwise; give one material, or leave the ends out"
+        )
+    return EndedLayers(*shared, stack)
 
 
 def as_elastic(body: Layered) -> ElasticStack | None:

@@ -14,6 +14,7 @@ from viscontact.bodies.indenters import Roller
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
+from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import ended_response
@@ -21,6 +22,10 @@ from viscontact.units.formatting import format_quantity
 
 #: Largest difference of the ends of a roller and of its material, relative to its half length.
 SAME = 1e-6
+
+#: Part of the displacement at an end that the elements of layers miss at most, for Poisson's ratios
+#: up to LARGEST_RATIO: on meshes twice as fine it changes by less than half as much.
+LAYER_ERROR, LARGEST_RATIO = 1e-3, 0.495
 
 #: Reason why a body between two ends has no approach.
 NO_DATUM = (
@@ -49,10 +54,29 @@ def check_ends(problem: Problem) -> None:
                     f"{name}.ends: {other} is not available on a body that ends; leave one out"
                 )
     _check_roller(problem)
-    if problem.ends_twice and problem.load.control != "force":
+    _check_layers(problem)
+    supported = problem.ends_twice and problem.surface.is_supported
+    if problem.ends_twice and not supported and problem.load.control != "force":
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
         )
+
+
+def _check_layers(problem: Problem) -> None:
+    """Refuse layers that end where what an end adds is not known."""
+    for name, body in problem.ended_bodies.items():
+        if not isinstance(body.material, Layered):
+            continue
+        if isinstance(problem.motion, SteadyMotion):
+            raise ValueError(
+                f"{name}.ends: layers that end are not available in steady motion; leave the ends "
+                "out, or give a motion over time (travel, reciprocating) along y"
+            )
+        if any((part.poisson_ratio or 0.0) > LARGEST_RATIO for part in body.material.materials):
+            raise ValueError(
+                f"{name}.ends: Poisson's ratios of layers that end are {LARGEST_RATIO} at most, "
+                "as elements of nearly incompressible ones are too stiff; give 0.495"
+            )
 
 
 def _check_roller(problem: Problem) -> None:
@@ -122,7 +146,7 @@ def check_tilt_of_ends(
 def tilts_from_datum(problem: Problem, grid: Grid, open_gap: Floats) -> bool:
     """True if the tilt along x has a datum: one end at most is free, or all is even about x = 0."""
     bodies = problem.ended_bodies.values()
-    if not any(body.ends == ("free", "free") for body in bodies):
+    if not any(body.ends == ("free", "free") for body in bodies) or problem.surface.is_supported:
         return True
     return (
         all(body.is_even for body in bodies)
@@ -139,6 +163,9 @@ def error_of_ends(problem: Problem, *, even: bool) -> float:
     """
     errors = [0.0]
     for body in problem.ended_bodies.values():
+        if isinstance(body.material, Layered):
+            errors.append(LAYER_ERROR if "free" in body.ends else 0.0)
+            continue
         ratio = body.material.poisson_ratio
         assert ratio is not None  # refused otherwise
         if "free" in body.ends:
@@ -161,8 +188,12 @@ def stress_left_on_ends(problem: Problem, grid: Grid, pressure: Floats | None) -
     if pressure is None or not pressure.any():
         return math.nan
     left = halfspace.end_certificate.stress_left
-    bodies = problem.ended_bodies.values()
-    return max(left(ended_response(body), pressure, grid) for body in bodies)
+    pairs = [pair for pair in zip(problem.ends, problem.bodies, strict=True) if pair[0]]
+    if any(isinstance(material, Layered) for _, material in pairs):
+        return math.nan  # the stress is found by waves in a half-space
+    return max(
+        left(ended_response(body, material), pressure, grid) for body, material in pairs if body
+    )
 
 
 def datum_of_ends_warnings(
@@ -172,7 +203,7 @@ def datum_of_ends_warnings(
 
     With `tilts`, the tilt along x has one.
     """
-    if not problem.ends_twice:
+    if not problem.ends_twice or problem.surface.is_supported:
         return {}
     words = f"{NO_DATUM}: {undefined[0]} is not defined (NaN)"
     if len(undefined) > 1:

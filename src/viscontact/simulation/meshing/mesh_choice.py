@@ -133,7 +133,7 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
 
 def _with_datum(request: AutomaticGrid, problem: Problem) -> AutomaticGrid:
     """Requirements without the approach where it has no datum, between two ends."""
-    if not problem.ends_twice:
+    if not problem.ends_twice or problem.surface.is_supported:
         return request
     kept = [name for name in request.quantities if name != "approach"]
     return replace(request, quantities=kept or ["contact_area"])
