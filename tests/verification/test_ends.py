@@ -275,8 +275,8 @@ def test_a_body_that_ends_needs_a_constant_poisson_ratio_and_one_material() -> N
     rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     with pytest.raises(ValueError, match="constant poisson_ratio"):
         vc.Body(vc.Material(vc.Elastic(1e6), bulk_modulus=1e9), 1e-3)
-    with pytest.raises(ValueError, match="layers that end are not available"):
-        vc.Body(vc.Layered([vc.Layer(1e-3, rubber)], "rigid"), 1e-3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="layers that end must be bonded"):
+        vc.Body(vc.Layered([vc.Layer(1e-3, rubber)], rubber), 1e-3)
     with pytest.raises(ValueError, match="a body without ends is a Material"):
         vc.Body(rubber, 1e-3, ends=(None, None))
 

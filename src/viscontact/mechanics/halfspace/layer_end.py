@@ -184,10 +184,9 @@ class Section:
         x = _graded(half_length, h)
         z, moduli = [0.0], []
         for layer in stack.layers:
-            inner = _graded(layer.thickness, h)
-            if layer is stack.layers[-1]:  # stress grows towards the edge of the base, too
-                inner = _graded(layer.thickness / 2, h)
-                inner = np.concatenate([inner, layer.thickness - inner[-2::-1]])
+            # Stress grows towards the edges of the face and of each interface.
+            upper = _graded(layer.thickness / 2, layer.thickness)
+            inner = np.concatenate([upper, layer.thickness - upper[-2::-1]])
             z += (z[-1] + inner[1:]).tolist()
             lame = 2 * layer.shear_modulus * layer.poisson_ratio / (1 - 2 * layer.poisson_ratio)
             moduli += [(layer.shear_modulus, lame)] * (len(inner) - 1)

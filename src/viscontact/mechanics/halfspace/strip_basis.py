@@ -160,6 +160,11 @@ def _table_of(
     """What two free faces add, of a half-space or of layers on a rigid base."""
     if stack is None:
         return strip_table(poisson_ratio, odd=odd)
+    return layer_table_of(stack, half_length, odd=odd)
+
+
+def layer_table_of(stack: ElasticStack, half_length: float, *, odd: bool) -> LayerTable:
+    """What two free faces add to layers on a rigid base."""
     # The same for all grids: their cells add up to the length, to rounding.
     return halfspace.layer_end.layer_table(stack, float(f"{half_length:.10g}"), odd=odd)
 

@@ -16,6 +16,7 @@ from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics import halfspace
+from viscontact.mechanics.halfspace.ended_half_space import EndedLayers
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import ended_response
 from viscontact.units.formatting import format_quantity
@@ -162,19 +163,21 @@ def error_of_ends(problem: Problem, *, even: bool) -> float:
     With `even`, pressures are even about x = 0 only.
     """
     errors = [0.0]
-    for body in problem.ended_bodies.values():
-        if isinstance(body.material, Layered):
-            errors.append(LAYER_ERROR if "free" in body.ends else 0.0)
+    for body, material in zip(problem.ends, problem.bodies, strict=True):
+        if body is None or "free" not in body.ends:
             continue
-        ratio = body.material.poisson_ratio
-        assert ratio is not None  # refused otherwise
-        if "free" in body.ends:
-            errors.append(halfspace.ends_error(ratio))
-            if None not in body.ends:
-                kinds = (False, True) if body.ends == ("free", "free") and not even else (False,)
-                errors[-1] += max(
-                    halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds
-                )
+        response = ended_response(body, material)
+        kinds = (False, True) if body.ends == ("free", "free") and not even else (False,)
+        if isinstance(response, EndedLayers):
+            half = body.length / body.ends.count("free")
+            table = halfspace.strip_basis.layer_table_of
+            found = (table(response.stack, half, odd=odd).error for odd in kinds)
+            errors.append(LAYER_ERROR + max(found))
+            continue
+        ratio = response.poisson_ratio
+        errors.append(halfspace.ends_error(ratio))
+        if None not in body.ends:
+            errors[-1] += max(halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds)
     return max(errors)
 
 
