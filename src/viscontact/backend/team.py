@@ -137,6 +137,22 @@ class Team:
                 field = np.concatenate([np.flip(field, axis), field], axis)
         return field
 
+    def spans(self, cells: Bools) -> tuple[slice, slice] | None:
+        """Smallest slices of rows and columns that hold the marked cells; None without any.
+
+        >>> Team().spans(np.array([[False, True], [False, True]]))
+        (slice(0, 2, None), slice(1, 2, None))
+        """
+        if self.core is not None:
+            first_row, last_row, first_column, last_column = self.core.spans(cells)
+            if last_row < 0:
+                return None
+            return slice(first_row, last_row + 1), slice(first_column, last_column + 1)
+        rows, columns = (np.flatnonzero(np.any(cells, axis=axis)) for axis in (1, 0))
+        if not rows.size:
+            return None
+        return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+
 
 def order_of(parts: Sequence[Numbers], number: np.dtype[Any], team: Team) -> float:
     """Return the factor to divide a field, given in parts, by before it is stored as `number`.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -167,20 +168,14 @@ class ContactDomain:
 
     def reduced_constraints(self, constraints: Constraints) -> Constraints:
         """The body's constraints on the independent part of the grid."""
-        for axis in (0, 1):
-            if self.grid.periodic[axis]:
-                constraints = constraints.level(axis)
-            if self.mirrored[axis]:
-                constraints = constraints.halved(axis)
-        return constraints
+        return _reduced(constraints, self.periodic, self.mirrored)
 
     def patch_around(self, cells: Bools) -> Patch:
         """Last patch if it fits the given cells, else one with room to grow, or the grid."""
-        if all(self.grid.periodic) or not cells.any():
+        spans = None if all(self.grid.periodic) else self.team.spans(cells)
+        if spans is None:
             return self.whole
-        rows, columns = (
-            self._lines(span, axis) for axis, span in enumerate(_spans(cells, self.team))
-        )
+        rows, columns = self._lines(spans[0], 0), self._lines(spans[1], 1)
         roomy = (
             _widen(rows, self.shape[0], one_sided=self.mirrored[0]),
             _widen(columns, self.shape[1], one_sided=self.mirrored[1]),
@@ -354,6 +349,19 @@ def _arm(shape: tuple[int, int], grid: Grid) -> float:
     return float(max(free or extents))
 
 
+@lru_cache(maxsize=16)  # the same object again while a load is held, with what it has cached
+def _reduced(
+    constraints: Constraints, periodic: tuple[bool, bool], mirrored: tuple[bool, bool]
+) -> Constraints:
+    """Constraints on the independent part of a grid."""
+    for axis in (0, 1):
+        if periodic[axis]:
+            constraints = constraints.level(axis)
+        if mirrored[axis]:
+            constraints = constraints.halved(axis)
+    return constraints
+
+
 def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) -> tuple[bool, bool]:
     """Evenness of gap and load across x = 0 and y = 0, on a grid that is centred there."""
     along_x, along_y = (
@@ -364,15 +372,6 @@ def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) ->
         for axis in (0, 1)
     )
     return along_x, along_y
-
-
-def _spans(cells: Bools, team: Team) -> tuple[slice, slice]:
-    """Smallest slices of rows and columns that hold the marked cells."""
-    if team.core is not None:
-        first_row, last_row, first_column, last_column = team.core.spans(cells)
-        return slice(first_row, last_row + 1), slice(first_column, last_column + 1)
-    rows, columns = (np.flatnonzero(np.any(cells, axis=axis)) for axis in (1, 0))
-    return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
 
 
 def _widen(span: slice, cells: int, *, one_sided: bool) -> slice:

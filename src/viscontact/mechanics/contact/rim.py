@@ -141,25 +141,28 @@ def trace_rim(
     team = team or Team()
     if any(grid.periodic):
         return _trace_around(grid, contact, gap, outline, recession, team)
-    rows, columns = _block(contact, axis=0), _block(contact, axis=1)
+    spans = team.spans(contact) or (slice(-1, -1),) * 2
+    rows, columns = _with_open_lines(spans[0]), _with_open_lines(spans[1])
     contact, gap = contact[rows, columns], gap[rows, columns]
     recession = None if recession is None else recession.within((rows, columns))
     ends = None
-    if outline is not None:
+    if outline is not None and np.isinf(gap).any():
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
         ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
     along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
-    first, second = np.arange(grid.shape[0])[rows], np.arange(grid.shape[1])[columns]
+    first, second = (
+        np.arange(block.start, block.start + count)
+        for block, count in zip((rows, columns), contact.shape, strict=True)
+    )
     segment = _segment_of(_chords(contact, team), contact, gap)
     return Rim(grid, contact, along_x, along_y, first, second, segment, team)
 
 
-def _block(contact: Bools, axis: int) -> slice:
-    """The contact's span along an axis, and the open cells on both sides."""
-    touched = np.flatnonzero(contact.any(axis=1 - axis))
-    if len(touched) == 0:
+def _with_open_lines(span: slice) -> slice:
+    """A contact's span along an axis, and the open cells on both sides; some without contact."""
+    if span.stop < 0:
         return slice(0, 2)
-    return slice(max(int(touched[0]) - MARGIN, 0), int(touched[-1]) + 1 + MARGIN)
+    return slice(max(span.start - MARGIN, 0), span.stop + MARGIN)
 
 
 def _trace_around(
@@ -193,7 +196,9 @@ def _trace_around(
 def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
     """Lines of the block, more of a period from which its rim is extrapolated, and its place."""
     if not repeats:
-        lines = np.arange(contact.shape[axis])[_block(contact, axis)]
+        touched = np.flatnonzero(contact.any(axis=1 - axis))
+        span = slice(int(touched[0]), int(touched[-1]) + 1) if touched.size else slice(-1, -1)
+        lines = np.arange(contact.shape[axis])[_with_open_lines(span)]
         return lines, lines, slice(None)
     lines = _turn(contact, axis)
     return lines, _with_margin(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)

@@ -78,11 +78,12 @@ def locate_rim(
     """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
     if team.core is not None:
         return _compiled_crossings(grid, contact, gap, recession, ends, team.core)
+    laws = [_laws(grid.cell_size, side, periodic=all(grid.periodic)) for side in (0, 1)]
     intervals = _changes(contact)
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
-    located, slope = _by_gaps(_laws(grid, 0), intervals, touches, gaps.ravel())
+    located, slope = _by_gaps(laws[0], intervals, touches, gaps.ravel())
     if recession is not None:
-        at, *found = _where_receding(_laws(grid, 1), intervals, recession, located)
+        at, *found = _where_receding(laws[1], intervals, recession, located)
         located[at], slope[at] = found
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
@@ -113,17 +114,19 @@ def _compiled_crossings(
     nx, ny = contact.shape
     found = np.empty((nx - 1, ny)), np.empty((nx, ny - 1))
     outline = None
-    if ends is not None and np.isinf(gap).any():
+    if ends is not None:
         outline = np.ascontiguousarray(ends[0]), np.ascontiguousarray(ends[1])
-    laws = (_compiled_law(law, core) for side in (0, 1) for law in _laws(grid, side))
+    laws = _compiled_laws(*grid.cell_size, core, periodic=all(grid.periodic))
     receding = None if recession is None else tuple(recession)
     core.locate_rim(contact, gap, *laws, receding, outline, *found)
     return found
 
 
-@lru_cache(maxsize=256)
-def _compiled_law(law: EdgeLaw, core: ModuleType) -> Any:
-    return core.EdgeLaw(law.threshold, law.growth, law.slopes, law.offsets)
+@lru_cache(maxsize=64)
+def _compiled_laws(dx: float, dy: float, core: ModuleType, *, periodic: bool) -> tuple[Any, ...]:
+    """Laws of the gaps along x and y, and of the pressures."""
+    laws = (law for side in (0, 1) for law in _laws((dx, dy), side, periodic=periodic))
+    return tuple(core.EdgeLaw(law.threshold, law.growth, law.slopes, law.offsets) for law in laws)
 
 
 def places(where: Bools) -> tuple[Integers, Integers]:
@@ -161,12 +164,12 @@ def _changes(contact: Bools) -> _Intervals:
     return _Intervals(count_along_x, start, inner, outwards, width + 1 - step)
 
 
-def _laws(grid: Grid, side: int) -> tuple[EdgeLaw, EdgeLaw]:
+def _laws(cell_size: tuple[float, float], side: int, *, periodic: bool) -> tuple[EdgeLaw, EdgeLaw]:
     """Laws of the gaps (side 0) or the pressures (side 1) on lines along x and along y."""
     # Ratios that differ by rounding share a law.
-    dx, dy = grid.cell_size
+    dx, dy = cell_size
     ratios = (round(ratio, 6 if ratio > 1e-3 else 15) for ratio in (dy / dx, dx / dy))
-    along_x, along_y = (edge_laws(each, periodic=all(grid.periodic))[side] for each in ratios)
+    along_x, along_y = (edge_laws(each, periodic=periodic)[side] for each in ratios)
     return along_x, along_y
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools
 from viscontact.backend.errors import DomainError
+from viscontact.backend.transforms import largest_of
 from viscontact.bodies.grid import MIN_CELLS_ACROSS
 from viscontact.bodies.loads.history import LoadPoint
 from viscontact.mechanics.contact.body_edge import trace_outline
@@ -170,7 +171,7 @@ class Observer:
         gap, in_contact = solution.gap, solution.in_contact
         recession = None
         if self._trend is not None:
-            error = self._run.problem.solver_error * float(np.abs(solution.displacement).max())
+            error = self._run.problem.solver_error * largest_of(solution.displacement)
             self._trend = self._trend.after(gap, solution.pressure, in_contact, error, self._team)
             recession = self._trend.recession(solution.pressure)
         return trace_rim(self._run.grid, in_contact, gap, self._outline, recession, self._team)
