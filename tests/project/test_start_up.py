@@ -129,6 +129,16 @@ def test_a_run_and_its_tables_import_no_library_of_datasets(tmp_path: Path) -> N
     assert imported(COMMAND.format(words=["show", run]), (*unwanted, *no_kinds)) == ""
 
 
+def test_a_fit_to_a_record_imports_no_library_of_datasets(tmp_path: Path) -> None:
+    rows = [(k / 10, 20 * k, round((20 * k) ** 1.5 / 100, 3)) for k in range(20)]
+    record = tmp_path / "record.csv"
+    lines = ["time [s], approach [nm], force [nN]", *(", ".join(map(str, row)) for row in rows)]
+    record.write_text("\n".join(lines))
+    options = ["--indenter", "sphere 5 um", "--poisson-ratio", "0.5", "--law", "elastic"]
+    code = f"from viscontact.cli import main; main({['fit', str(record), *options]!r})"
+    assert imported(code, OF_DATASETS) == ""
+
+
 def test_a_check_imports_nothing_that_it_does_without() -> None:
     check = COMMAND.format(words=["check", str(EXAMPLES / "sphere-zener.yaml")])
     unwanted = (*OF_DATASETS, *COMPUTES, "netCDF4", "scipy.linalg", *OF_OTHER_RUNS, *OF_RUNS)

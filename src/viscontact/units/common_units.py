@@ -25,6 +25,8 @@ _FACTORS: dict[str, dict[str, float]] = {
         "d": 86400.0,
     },
     "kilogram * meter / second ** 2": {
+        "pN": 1e-12,
+        "nN": 1e-09,
         "uN": 1e-06,
         "µN": 1e-06,
         "mN": 0.001,
@@ -90,6 +92,7 @@ _FACTORS: dict[str, dict[str, float]] = {
         "N/m": 1.0,
         "N/mm": 1000.0,
         "mN/m": 0.001,
+        "pN/nm": 0.0009999999999999998,
         "kN/m": 1000.0,
     },
     "kilogram * meter / second ** 3": {

@@ -51,7 +51,8 @@ def demo(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
     """Press a crowned roller on PMMA for 1000 s and draw the results, in ./viscontact-demo."""
-    from viscontact.cli.results.figures import draw, plot_package
+    from viscontact.cli.results.figure_files import plot_package
+    from viscontact.cli.results.figures import draw
     from viscontact.cli.run.execution import execute
 
     plot_package()  # refused before the run where figures cannot be drawn after it

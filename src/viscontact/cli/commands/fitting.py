@@ -364,15 +364,16 @@ def fit(
     """
     from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
-    from viscontact.cli.results.figures import chosen_width
+    from viscontact.cli.results.figure_files import chosen_width
 
     typed = dict(locals())
-    from viscontact.cli.studies.case_fit import execute_case_fit, refuse_without_case
-
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
     if case is not None:
+        from viscontact.cli.studies.case_fit import execute_case_fit
+
         execute_case_fit(typed, page)
         return
+    from viscontact.cli.material.case_options import refuse_without_case
     from viscontact.cli.material.fit_batch import curve_files, holds_several, report_fits
 
     curves = curve_files(files)

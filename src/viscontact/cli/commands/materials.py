@@ -156,7 +156,7 @@ def _show_or_write(
     from viscontact.cli.material.material_files import at_temperature, find_material
     from viscontact.cli.material.material_tables import list_library, show_material
     from viscontact.cli.material.material_writing import FORMS, write_material
-    from viscontact.cli.results.figures import chosen_width
+    from viscontact.cli.results.figure_files import chosen_width
 
     if to is not None and to not in FORMS:
         refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")

@@ -201,7 +201,7 @@ def check(
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")
     page = None
     if plot or width is not None:  # figures take a second to import
-        from viscontact.cli.results.figures import chosen_width
+        from viscontact.cli.results.figure_files import chosen_width
 
         page = chosen_width(width, drawn=plot, switch="--plot")
     with logged(verbose):

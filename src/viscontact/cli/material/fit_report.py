@@ -18,7 +18,7 @@ from viscontact.cli.material.fit_kinds import Kind
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
 from viscontact.cli.material.shift_table import print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
-from viscontact.cli.results.figures import plot_package
+from viscontact.cli.results.figure_files import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
     ForceCurve,

@@ -16,7 +16,7 @@ from viscontact.bodies.materials import library
 from viscontact.bodies.materials.library import Entry
 from viscontact.bodies.materials.material import Material
 from viscontact.cli.material.named_material import MaterialDisplay
-from viscontact.cli.results.figures import plot_package, save
+from viscontact.cli.results.figure_files import plot_package, save
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.cli.terminal.messages import put, refuse
 from viscontact.units.formatting import format_number, format_quantity, readable_unit

@@ -10,6 +10,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.cli.results.compared_runs import compared_runs, note_changed, note_missing
+from viscontact.cli.results.figure_files import plot_package, read_place, require_suffix, save
 from viscontact.cli.results.stored import checked_result, early_end
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.cli.terminal.progress import counted
@@ -19,7 +20,6 @@ from viscontact.drawing.figures import TABLE, FigureEntry, compared_names
 from viscontact.results.run_axis import run_axis
 from viscontact.studies.sweep.open_many import open_many
 from viscontact.studies.sweep.states import State
-from viscontact.units.parsing import parse_quantity
 
 #: Options of a figure by their names, None where not given.
 Options = Mapping[str, str | float | None]
@@ -40,7 +40,7 @@ def draw(
     folder = directory if directory.is_dir() else directory.parent
     file = output or folder / f"{figure}{'.gif' if entry.is_animation else '.png'}"
     suffixes = plot.ANIMATION_SUFFIXES if entry.is_animation else plot.FIGURE_SUFFIXES
-    _require_suffix(plot, file, suffixes)
+    require_suffix(plot, file, suffixes)
     draw_it, counts = getattr(plot, entry.drawn_by), "progress" in entry.takes
     if entry.of == "sweep":
         save(plot, file, draw_it, _sweep(figure, directory), **given)
@@ -85,7 +85,7 @@ def draw_comparison(
         one = f"got {directories[0]} alone" if directories else "got none with a result"
         refuse(f"compare needs two runs or more, {one}; `viscontact plot DIR` draws a single run")
     file = output or Path(f"compare-{figure}.png")
-    _require_suffix(plot, file, plot.FIGURE_SUFFIXES)
+    require_suffix(plot, file, plot.FIGURE_SUFFIXES)
     with ExitStack() as stack:
         runs = [stack.enter_context(checked_result(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
@@ -118,17 +118,6 @@ def _usual_comparison(directories: Sequence[Path]) -> str:
         return "history" if run_axis(ds).is_history else "friction"
 
 
-def plot_package() -> Any:
-    """Return `viscontact.plot`, or name the missing package."""
-    try:
-        from viscontact.drawing import matplotlib as plot
-    except ModuleNotFoundError as error:
-        if error.name != "matplotlib":
-            raise
-        refuse("figures need matplotlib: pip install 'viscontact[plot]'")
-    return plot
-
-
 def _choose_figure(
     choice: FigureChoice, names: Sequence[str], options: Options
 ) -> tuple[FigureEntry, dict[str, Any]]:
@@ -142,7 +131,7 @@ def _choose_figure(
                 choice.refuse(name)
     except ValueError as error:
         refuse(str(error))
-    return entry, given | {name: _read_place(name, value) for name, value in wanted.items()}
+    return entry, given | {name: read_place(name, value) for name, value in wanted.items()}
 
 
 def _require_within(choice: FigureChoice, ds: xr.Dataset, directory: Path) -> None:
@@ -150,39 +139,6 @@ def _require_within(choice: FigureChoice, ds: xr.Dataset, directory: Path) -> No
         choice.require_within(ds, str(directory))
     except ValueError as error:
         refuse(str(error))
-
-
-def _read_place(name: str, value: str | float) -> str | float:
-    is_length = name == "at" or (name == "width" and value not in ("single", "double"))
-    try:
-        return parse_quantity(str(value), "length") if is_length else value
-    except ValueError as error:
-        words = "; or write single (89 mm) or double (183 mm)" if name == "width" else ""
-        refuse(f"--{name}: {error}{words}")
-
-
-def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float | None:
-    """Read --width before any work is done, or refuse it."""
-    if width is None:
-        return None
-    if not drawn:
-        refuse(f"--width: applies to figures only; add {switch}")
-    read = _read_place("width", width)
-    try:
-        plot_package().layout.page.page_width(read, 1.0)
-    except ValueError as error:
-        refuse(f"--width: {error}")
-    return read
-
-
-def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
-    """Refuse a file of another format, or in no directory, before any work is done for it."""
-    if not file.absolute().parent.is_dir():
-        refuse(f"{file}: there is no directory {file.parent}")
-    try:
-        plot.require_suffix(file, suffixes)
-    except ValueError as error:
-        refuse(f"{file}: {error}")
 
 
 def _note(*lines: str) -> None:
@@ -208,21 +164,6 @@ def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> Non
             )
         with counted("frame") as progress:
             plot.save_animation(moving, file, progress)
-    except (ValueError, OSError) as error:
-        refuse(f"{file}: {error}")
-    put(file)
-
-
-def save(
-    plot: Any, file: Path, draw_it: Any, results: Any, *, counts: bool = False, **options: Any
-) -> None:
-    """Draw and write a figure, and print the name of its file."""
-    try:
-        with ExitStack() as stack:
-            if counts:  # stresses of many cells take long
-                options["progress"] = stack.enter_context(counted("depth"))
-            figure = draw_it(results, **options)
-        plot.save_figure(figure, file)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")
     put(file)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from viscontact.cli.results.figures import plot_package, save
+from viscontact.cli.results.figure_files import plot_package, save
 from viscontact.cli.terminal.messages import say
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
