@@ -178,13 +178,14 @@ def test_a_package_runs_from_an_environment_of_its_own(
     assert ran(command, "--version", folder=tmp_path) == f"viscontact {viscontact.__version__}\n"
     place = ran(scripts / "python", "-P", "-c", "import viscontact; print(viscontact.__file__)")
     assert Path(place.strip()).is_relative_to(environment)
-    said = ran(command, "doctor", folder=tmp_path, VISCONTACT_CORE="")
+    usual = {"VISCONTACT_CORE": ""}  # one of the packages is without what CI requires
+    said = ran(command, "doctor", folder=tmp_path, **usual)
     kernels = "compiled" if core_of(built[".whl"]) else "NumPy (no compiled core: it is not built)"
     if package == plain:
         kernels = "NumPy (no compiled core: it is not built)"
     assert re.search(rf"^inner loops +{re.escape(kernels)} *$", said, re.MULTILINE)
     ran(command, "example", "sphere-zener", "-o", "my.yaml", folder=tmp_path)
-    ran(command, "run", "my.yaml", "--set", "time.steps=3", "-q", folder=tmp_path)
+    ran(command, "run", "my.yaml", "--set", "time.steps=3", "-q", folder=tmp_path, **usual)
     assert (tmp_path / "my" / "result.nc").is_file()
 
 
