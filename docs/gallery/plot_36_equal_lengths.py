@@ -84,6 +84,24 @@ axes.set(xlabel="x [mm]", ylabel="line load / mean [-]", ylim=(0, 1.5), xlim=(-2
 legend = axes.legend(frameon=False, loc="lower center")
 
 # %%
+# A crowned roller on a short track
+# ---------------------------------
+#
+# Where the roller is longer than the track, it is the track that ends, and its line load is that of
+# equal lengths. A crown lifts the roller off the ends of the track.
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+for crown, colour in ((None, "#440154"), (1.0, "#21918c"), (0.3, "#d98c00")):
+    long_roller = vc.Roller(radius, half_length=length, profile="full", crown_radius=crown or 1e6)
+    ds = vc.simulate(long_roller, vc.Body(track(0.3), length), load, grid, [0.0], errors=False)
+    name = "straight" if crown is None else f"crown of {crown:g} m"
+    axes.plot(grid.x[inside] * 1e3, ds.line_load[0][inside] / line, color=colour, label=name)
+for end in (-length / 2, length / 2):
+    axes.axvline(end * 1e3, color="0.2", linewidth=0.8)
+axes.set(xlabel="x [mm]", ylabel="line load / mean [-]", ylim=(0, 1.5), xlim=(-2.1, 2.1))
+legend = axes.legend(frameon=False, loc="lower center")
+
+# %%
 # The check
 # ---------
 #

@@ -148,10 +148,50 @@ def test_layers_whose_ends_are_not_known_are_refused(
         _pressed(vc.Body(body, LENGTH, **how))
 
 
-def test_layers_that_end_do_not_move_steadily() -> None:
-    body = vc.Body(_cover(_rubber(0.45, vc.Zener(1e6, 1e6, 1e6))), LENGTH)
-    with pytest.raises(ValueError, match="layers that end are not available in steady motion"):
-        vc.steady(ROLL, body, vc.step(200.0, tilt_y=0.0), 0.1)
+#: Parabolas, so that cells and strips have the same gap.
+ROLLING, ENDLESS = vc.Paraboloid(1e6, 60e-3), vc.Paraboloid(np.inf, 60e-3)
+RETARDED = vc.Zener(1e6, 1e6, 1e6)  # relaxed modulus 0.5 MPa, retardation time 1 s
+
+
+def _rolled(ratio: float, speeds: Any, **how: Any) -> xr.Dataset:
+    body = vc.Body(_cover(_rubber(ratio, RETARDED)), LENGTH)
+    grid = vc.Grid((28, 48), (LENGTH * 28 / 24, 48e-3))
+    return vc.steady(ROLLING, body, vc.step(200.0, tilt_y=0.0), speeds, grid=grid, **how)
+
+
+def test_without_poisson_effect_a_cover_that_ends_rolls_as_a_line_contact() -> None:
+    found = _rolled(0.0, [1e-3, 1e-2], errors=False)
+    line = vc.steady(
+        ENDLESS,
+        _cover(_rubber(0.0, RETARDED)),
+        vc.step(200.0, tilt_y=0.0),
+        [1e-3, 1e-2],
+        grid=vc.Grid((1, 48), (LENGTH, 48e-3), periodic=(True, False)),
+        errors=False,
+    )
+    for name in ("resistance_y", "approach", "peak_pressure"):
+        assert found[name].values == close_to(line[name].values, rel=2e-5)
+    line_load = found.line_load[1].values[2:-2]
+    assert line_load == close_to(np.full(24, 200.0 / LENGTH), rel=2e-6)
+
+
+def test_a_cover_that_ends_rolls_fast_and_slowly_as_elastic_ones_are_pressed() -> None:
+    rolled = _rolled(0.45, [1e-6, 1e-2, 1e2])
+    for index, modulus in ((0, 0.5e6), (2, 1e6)):
+        pressed = vc.simulate(
+            ROLLING,
+            vc.Body(_cover(_rubber(0.45, vc.Elastic(modulus))), LENGTH),
+            vc.step(200.0, tilt_y=0.0),
+            vc.Grid((28, 48), (LENGTH * 28 / 24, 48e-3)),
+            [0.0],
+            errors=False,
+        )
+        assert float(rolled.approach[index]) == close_to(float(pressed.approach[0]), rel=1e-4)
+        assert rolled.line_load[index].values == close_to(pressed.line_load[0].values, rel=1e-4)
+    # In between, it loses more than its error bar.
+    friction, error = rolled.friction_coefficient.values, rolled.friction_coefficient_error.values
+    assert friction[1] > 10 * max(friction[0], friction[2])
+    assert 0 < error[1] < 0.05 * friction[1]
 
 
 def test_a_case_gives_the_ends_of_layers(tmp_path: Any) -> None:

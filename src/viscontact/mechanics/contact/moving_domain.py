@@ -235,7 +235,7 @@ class MovingDomain(ContactDomain):
         # far.
         responses = [part for response, _ in self.surface.terms for part, _ in parts_of(response)]
         ended = [part for part in responses if isinstance(part, EndedResponse)]
-        if all(None in part.planes for part in ended):
+        if self.surface.is_supported or all(None in part.planes for part in ended):
             return None
         terms = [(response, moving, 1.0) for response, moving in self._scaled_terms]
         operator = self._sum_with_ends(terms, self.shape, 0)

@@ -14,7 +14,10 @@ from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.convolution import Convolution
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
 from viscontact.mechanics.halfspace.influence import influence_table
-from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
+from viscontact.mechanics.halfspace.layered_influence import (
+    periodic_layered_coefficient,
+    periodic_layered_table,
+)
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
@@ -125,7 +128,11 @@ def ended_rows(
     bases = _bases_of_ends(response, range(begin, end), borders, *shared)
     if moving is not None:
         count = end if after is None else after - (before or 0)
-        table = _moving_table((count, shape[1]), cell_size, moving, periodic=None not in borders)
+        part = (count, shape[1])
+        if isinstance(response, EndedLayers):
+            table = _moving_table_of_layers(part, cell_size, moving, response.stack)
+        else:
+            table = _moving_table(part, cell_size, moving, periodic=None not in borders)
         return EndedRows(borders, table, bases, begin, moving)
     table = np.empty((0, 0))
     if before is not None and after is not None:
@@ -155,6 +162,24 @@ def _moving_table(
     half = moving_influence_table((shape[0] + 1, shape[1]), cell_size, moving, 1, with_images)
     offsets = np.arange(2 * shape[0])
     return np.asarray(half[np.minimum(offsets, 2 * shape[0] - offsets)])
+
+
+def _moving_table_of_layers(
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    moving: MovingCompliance,
+    stack: ElasticStack,
+) -> Floats:
+    """The same for layers, for rows between two planes."""
+    count, datum = 2 * shape[0], shape[1] * cell_size[1]
+
+    def with_images(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
+        places = np.abs(along[:, 0])
+        return periodic_layered_coefficient(count, places, cell[::-1], stack, datum).T
+
+    half = moving_influence_table((shape[0] + 1, shape[1]), cell_size, moving, 1, with_images)
+    offsets = np.arange(count)
+    return np.asarray(half[np.minimum(offsets, count - offsets)])
 
 
 def _bases_of_ends(

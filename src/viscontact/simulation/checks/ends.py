@@ -68,11 +68,6 @@ def _check_layers(problem: Problem) -> None:
     for name, body in problem.ended_bodies.items():
         if not isinstance(body.material, Layered):
             continue
-        if isinstance(problem.motion, SteadyMotion):
-            raise ValueError(
-                f"{name}.ends: layers that end are not available in steady motion; leave the ends "
-                "out, or give a motion over time (travel, reciprocating) along y"
-            )
         if any((part.poisson_ratio or 0.0) > LARGEST_RATIO for part in body.material.materials):
             raise ValueError(
                 f"{name}.ends: Poisson's ratios of layers that end are {LARGEST_RATIO} at most, "
