@@ -128,7 +128,12 @@ CALLS: dict[str, tuple[dict[str, Any], ...]] = {
         {"surface": surfaces.Surface(np.zeros((9, 9)), 1e-3), "x": (1e-3, 5e-3), "y": (1e-3, 5e-3)},
     ),
     "creep_curve": ({"law": RUBBER.law, "times": [1.0, 2.0]},),
-    "draw_indenter": ({"indenter": BALL, "size": (1e-3, 2e-3), "contact": (0.0, 0.0, 1e-4, 2e-4)},),
+    "draw_indenter": (
+        {
+            **{"indenter": BALL, "size": (1e-3, 2e-3), "contact": (0.0, 0.0, 1e-4, 2e-4)},
+            "ends": [-1e-4, 2e-4],
+        },
+    ),
     "fit_creep": ({**CREEP, "data": "shear"}, {**CREEP, **HEATED}),
     "fit_each": (
         {

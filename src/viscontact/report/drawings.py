@@ -27,7 +27,7 @@ from viscontact.drawing.svg.shapes import indenter_drawings
 from viscontact.drawing.svg.stack import stack_drawing
 from viscontact.report.page_elements import remark, width_of
 from viscontact.results.creep_times import law_times
-from viscontact.results.recorded_case import case_of, is_layered, recorded_grid
+from viscontact.results.recorded_case import case_of, is_layered, recorded_ends, recorded_grid
 from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stored_contact import cells_in_contact
@@ -88,7 +88,8 @@ def _indenter(ds: xr.Dataset) -> Figure:
     if length > 0 and width > 0:
         middle = _middle(ds)
         contact = (*middle, length, width)
-    return draw_indenter(indenter, size, contact=contact, shaded="largest contact")
+    ends = [end.place for end in recorded_ends(ds)]
+    return draw_indenter(indenter, size, contact=contact, shaded="largest contact", ends=ends)
 
 
 def _body(ds: xr.Dataset) -> Indenter:

@@ -258,3 +258,13 @@ def test_headings_keep_apart(body: vc.Indenter) -> None:
             for side in ("left", "right")
         )
         assert left.x1 + 4 < right.x0
+
+
+def test_ends_of_bodies_are_marked_in_the_section_along_them_and_in_the_plan() -> None:
+    figure = draw_indenter(vc.Roller(0.01, 3e-3), (8e-3, 2e-3), ends=[2e-3, -2e-3, 0.1])
+    for axes, marks in zip(figure.axes[:3], (True, False, True), strict=True):
+        dotted = [line for line in axes.get_lines() if line.get_linestyle() == ":"]
+        places = [float(np.asarray(line.get_xdata())[0]) for line in dotted]
+        assert places == ([-2.0, 2.0] if marks else [])
+    texts = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert any("bodies end at x" in text for text in texts)

@@ -112,7 +112,8 @@ def _indenter(found: PreparedRun, expected: Forecast, width: Width | None) -> Fi
     contact = None
     if estimate is not None:
         contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
-    return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
+    size, ends = drawn_size(found.run), found.run.contact.planes
+    return draw_indenter(case.indenter, size, contact=contact, ends=ends, width=width)
 
 
 def _material(case: Case, what: str, width: Width | None) -> Iterator[Captioned]:

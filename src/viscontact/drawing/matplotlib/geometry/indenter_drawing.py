@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.indenters.cross_section import Cut
@@ -19,7 +19,7 @@ from viscontact.drawing.content.shape import DrawnShape, shape_of, stretch_note
 from viscontact.drawing.matplotlib.layout import style
 from viscontact.drawing.matplotlib.layout.page import NARROW, Width, page_width
 from viscontact.units.formatting import ReadableUnit, readable_unit
-from viscontact.units.numbers import both_lengths, real_array
+from viscontact.units.numbers import both_lengths, finite_array, real_array
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
@@ -36,6 +36,7 @@ def draw_indenter(
     contact: tuple[float, float, float, float] | None = None,
     title: str = "",
     shaded: str = "expected contact",
+    ends: ArrayLike = (),
     width: Width | None = None,
 ) -> Figure:
     """Draw an indenter: sections along x and y through its deepest point, and its plan.
@@ -52,6 +53,8 @@ def draw_indenter(
         Heading of the facts.
     shaded : str, optional
         Name of the shaded contact.
+    ends : array_like, optional
+        Positions x at which bodies end, which are marked [m].
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -83,7 +86,9 @@ def draw_indenter(
         _draw_section(axes, shape, number, unit, contact)
     _draw_plan(panels[1, 0], shape, unit, contact)
     texts = facts(indenter, shape.sections, shape.levels, contact, shaded)
-    _add_facts(panels[1, 1], chain([title] if title else [], texts))
+    planes = np.unique(finite_array("ends", ends, "m")).tolist()
+    _mark_ends((panels[0, 0], panels[1, 0]), planes, unit)
+    _add_facts(panels[1, 1], chain([title] if title else [], texts, _ends_text(planes)))
     _add_stretch_notes(figure, panels, shape.sections)
     return figure
 
@@ -134,6 +139,20 @@ def _draw_section(
     # Three digits leave room for the exaggeration.
     where = length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
     style.add_heading(axes, f"along {along}, at {fixed} = {where}")
+
+
+def _mark_ends(panels: tuple[Axes, ...], ends: list[float], unit: ReadableUnit) -> None:
+    """Mark the planes across x at which bodies end, where they are on the drawing [m]."""
+    for axes in panels:
+        low, high = axes.get_xlim()
+        for end in (float(unit(each)) for each in ends):
+            if low <= end <= high:
+                axes.axvline(end, color=style.INK, linewidth=1.0, linestyle=":")
+
+
+def _ends_text(ends: list[float]) -> Iterator[str]:
+    if ends:
+        yield f"bodies end at x = {', '.join(length(each) for each in ends)} (dotted)"
 
 
 def _draw_plan(

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.drawing.matplotlib.geometry.indenter_drawing import draw_indenter
 from viscontact.drawing.matplotlib.layout.page import Width
-from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_case import recorded_ends, recorded_grid
 from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.snapshots import labels_of, take_snapshots
 from viscontact.units.numbers import finite_array
@@ -63,4 +63,5 @@ def indenter(
         contact = (*middle, x_high - x_low, y_high - y_low)
         shaded = f"contact at {labels_of([snapshot])[0]}"
     size = recorded_grid(results).size_about_origin
-    return draw_indenter(body, size, contact=contact, shaded=shaded, width=width)
+    ends = [end.place for end in recorded_ends(results)]
+    return draw_indenter(body, size, contact=contact, shaded=shaded, ends=ends, width=width)
