@@ -10,9 +10,11 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.drawing.content.exact_history import exact_sphere
 from viscontact.drawing.content.map import maps_over
 from viscontact.drawing.plotly.sections import draw_section, line_loads
 from viscontact.report.end_chapter import compared_loads, end_chapter
+from viscontact.report.limits import assumptions
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
@@ -74,3 +76,15 @@ def test_figures_along_x_mark_the_ends_of_bodies(track: xr.Dataset) -> None:
         places = [shape.x0 for shape in figure.layout.shapes]
         assert places == close_to([-2.0, 2.0], rel=1e-9)
     assert not draw_section(maps, "y").layout.shapes
+
+
+def test_a_ball_beside_an_end_is_not_compared_with_half_spaces() -> None:
+    body = vc.Body(vc.Material(vc.Elastic(1e6), 0.5), 4e-3, centre=1.8e-3, ends=("free", None))
+    grid = vc.Grid((48, 48), (2.4e-3, 2.4e-3))
+    ds = vc.simulate(vc.Sphere(0.01), body, vc.step(0.02), grid, [0.0, 1.0], errors=False)
+    assert exact_sphere(ds, "history") is None
+    half_space = vc.Material(vc.Elastic(1e6), 0.5)
+    other = vc.simulate(vc.Sphere(0.01), half_space, vc.step(0.02), grid, [0.0, 1.0], errors=False)
+    assert exact_sphere(other, "history") is not None
+    assert "bodies end along x" in dict(assumptions(ds))["Ends"]
+    assert "Ends" not in dict(assumptions(other))

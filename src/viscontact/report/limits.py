@@ -12,7 +12,7 @@ import xarray as xr
 from viscontact.bodies.materials.layers import named_parts
 from viscontact.mechanics.state import Outcome
 from viscontact.results.creep_times import creep_times
-from viscontact.results.recorded_case import case_of, is_layered
+from viscontact.results.recorded_case import case_of, is_layered, recorded_ends
 from viscontact.results.recorded_objects import recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.units.formatting import format_number, format_quantity
@@ -59,6 +59,8 @@ def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Layers", f"{unbounded}{_size(ds)}"
     else:
         yield "Half-space", f"the surface is unbounded, and so is the body below it{_size(ds)}"
+    if recorded_ends(ds):
+        yield "Ends", "bodies end along x at planes, free of stress or held without friction"
     yield (
         "Small slopes",
         (

@@ -18,7 +18,7 @@ from viscontact.bodies.loads import ApproachHistory, ForceHistory
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.drawing.content.along_run import along_run, within_span
 from viscontact.drawing.content.panel import FAINT, TEXT, Axis, Curve, Ink, Mark, Panel
-from viscontact.results.recorded_case import is_layered, recorded_grid
+from viscontact.results.recorded_case import is_layered, recorded_ends, recorded_grid
 from viscontact.results.recorded_objects import recorded_clock, recorded_object
 from viscontact.results.run_axis import require_time
 from viscontact.units.formatting import ReadableUnit
@@ -130,6 +130,8 @@ def _require_known(
         raise ValueError(f"{figure}: needs a half-space, not layers; draw history instead")
     if any(recorded_grid(results).periodic):
         raise ValueError(f"{figure}: needs a half-space without period; draw history instead")
+    if recorded_ends(results):
+        raise ValueError(f"{figure}: needs a half-space without ends; draw history instead")
     if not isinstance(load, ForceHistory | ApproachHistory):
         raise ValueError(
             f"{figure}: needs a load of straight pieces, such as a step, a ramp or a triangle, "
@@ -236,7 +238,7 @@ def exact_sphere(results: xr.Dataset, figure: str) -> reference.LeeRadokContact 
     radius = sphere_radius(indenter)
     if radius is None or not isinstance(load, ForceHistory):
         return None
-    if is_layered(results) or is_layered(results, "indenter_material"):
+    if is_layered(results) or is_layered(results, "indenter_material") or recorded_ends(results):
         return None
     parts = ("material", "indenter_material")
     if any(recorded_clock(results, part, figure) is not TIME for part in parts):
