@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+
+#include "rows.hpp"
 
 namespace viscontact {
 
 namespace {
-
-constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
-constexpr double BEYOND = std::numeric_limits<double>::infinity();
 
 // As in straight_edge.py and rim_crossings.py.
 constexpr double MAX_CURVATURE = 0.3, MAX_DISTANCE = 1.5, LEAST_DESCENT = 1e-6;

@@ -279,11 +279,30 @@ def test_what_is_no_number_has_no_residual(kind: type) -> None:
         assert not passes.balance(values[1], fields.constraints, 1e-6, 1.0)
 
 
-def test_arrays_of_another_kind_are_refused() -> None:
+def test_arrays_of_another_kind_or_shape_are_refused() -> None:
     fields = Fields(1, (5, 6), (False, False), (True, True, True), 1.0)
-    single = np.zeros((5, 6), np.float32)
+    single, double = np.zeros((5, 6), np.float32), np.zeros((5, 6))
     with pytest.raises(TypeError, match="incompatible function arguments"):
         fields.compiled.difference(fields.pressure(), single, 1.0, single)
+    for other in (np.zeros((5, 7)), np.zeros((4, 6)), np.zeros((6, 5))):
+        with pytest.raises(ValueError, match="do not have the same shape"):
+            fields.compiled.difference(double, other, 1.0, single)
+        with pytest.raises(ValueError, match="do not have the same shape"):
+            fields.compiled.sums(other)
+    with pytest.raises(ValueError, match="numbers of a row must be contiguous"):
+        fields.compiled.sums(np.zeros((5, 12))[:, ::2])
+    core, flags = compiled.core, np.zeros((5, 6), bool)
+    assert core is not None
+    with pytest.raises(ValueError, match="as long as its part, or twice as long"):
+        core.unfold(double, np.zeros((5, 11)))
+    with pytest.raises(ValueError, match="do not have the same shape"):
+        core.enclosed_squares(flags, double, double, 0.1)
+    with pytest.raises(ValueError, match="fields of one size"):
+        core.weighted_sum(double, [1.0], [np.zeros((4, 6))], 1)
+    with pytest.raises(ValueError, match="each field has a weight"):
+        core.weighted_sum(double, [1.0, 2.0], [double], 1)
+    with pytest.raises(ValueError, match="no half of the spectrum"):
+        core.filter(single, single[:2].copy(), 0)
 
 
 @settings(max_examples=20)

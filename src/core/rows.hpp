@@ -1,0 +1,37 @@
+// Rows of fields that are worked on for newer processors as well, and sums over blocks.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "fields.hpp"
+
+// Work on rows is compiled for newer processors as well, where the C library chooses between them.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define FOR_PROCESSORS __attribute__((target_clones("avx2", "default")))
+#else
+#define FOR_PROCESSORS
+#endif
+
+namespace viscontact {
+
+constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+constexpr double BEYOND = std::numeric_limits<double>::infinity();
+
+template <class Part>
+Part total_of(const std::vector<Part> &parts) {
+    Part total{};
+    for (const Part &part : parts) total.add(part);
+    return total;
+}
+
+template <class Number, std::size_t Count>
+std::array<Number, Count> added(const std::vector<std::array<Number, Count>> &parts) {
+    std::array<Number, Count> total{};
+    for (const auto &part : parts)
+        for (std::size_t k = 0; k < Count; ++k) total[k] += part[k];
+    return total;
+}
+
+}  // namespace viscontact
