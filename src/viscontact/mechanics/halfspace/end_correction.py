@@ -14,6 +14,7 @@ functions is convolved along y by padded transforms, and the result is expanded.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -75,7 +76,7 @@ class EndBasis:
         waves = panel_nodes(self.borders, NODES)[0]
         factors = compliance.at_wave_number(waves) - less
         means = np.diff(oscillation_weights(self.borders, NODES, edges), axis=0)
-        before = complex(compliance.at_wave_number(self.borders[:1] / np.e)[0]) - less
+        before = complex(compliance.at_wave_number(self.borders[:1] / math.e)[0]) - less
         whole = np.full(2 * cells - 1, self.borders[0] * edge * before.real)
         return np.column_stack([whole, (means * (factors / (1j * waves))).real]) / np.pi
 
@@ -103,7 +104,7 @@ def end_basis(
     borders = lowest * 2.0 ** np.arange(np.ceil(np.log2(highest / lowest)) + 1)
     waves, weights = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at lowest/e.
-    waves, weights = np.append(lowest / np.e, waves), np.append(lowest, weights)
+    waves, weights = np.append(lowest / math.e, waves), np.append(lowest, weights)
     means = np.stack([row_means(functions, wave * edge, rows) for wave in waves])
     scaled = np.sqrt(weights)[:, None, None] * means
     flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
