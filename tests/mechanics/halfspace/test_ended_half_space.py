@@ -12,7 +12,10 @@ from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.end_correction import end_basis
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 from viscontact.mechanics.halfspace.free_end import end_functions
+from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
+from viscontact.mechanics.halfspace.periodic_influence import smooth_periodic_table
 from viscontact.mechanics.halfspace.strip_basis import StripRows, strip_basis
+from viscontact.mechanics.halfspace.surface_response import HALF_SPACE
 
 GRID = Grid((20, 12), (20.0, 9.0))
 INSIDE = slice(4, 16)
@@ -194,3 +197,13 @@ def test_a_far_free_end_is_felt_as_that_of_a_body_that_goes_on() -> None:
         rest = missed.ravel() - x.T @ np.linalg.lstsq(x.T, missed.ravel(), rcond=None)[0]
         spread.append(np.abs(rest).max() / lone.max())
     assert spread[2] < 0.4 * spread[1] < 0.16 * spread[0] < 1e-3
+
+
+@pytest.mark.parametrize("shape", [(240, 32), (20, 12), (10, 200), (64, 300)])
+def test_interpolated_images_are_those_of_the_periodic_table(shape: tuple[int, int]) -> None:
+    cell = (0.3, 0.2)
+    width = shape[1] * cell[1]
+    exact = periodic_layered_table(shape, cell, HALF_SPACE, width)
+    assert smooth_periodic_table(shape, cell, width) == close_to(
+        exact, abs=1e-13 * float(np.abs(exact).max())
+    )

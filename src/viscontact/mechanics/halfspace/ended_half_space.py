@@ -19,8 +19,8 @@ from viscontact.mechanics.halfspace.layered_influence import (
     periodic_layered_table,
 )
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
+from viscontact.mechanics.halfspace.periodic_influence import smooth_periodic_table
 from viscontact.mechanics.halfspace.surface_response import (
-    HALF_SPACE,
     HalfSpaceResponse,
     SummedResponse,
     SurfaceResponse,
@@ -138,8 +138,13 @@ def ended_rows(
     if before is not None and after is not None:
         # With the datum of a grid that is periodic.
         period = 2 * (after - before)
-        endless = response.stack if isinstance(response, EndedLayers) else HALF_SPACE
-        table = periodic_layered_table((period, shape[1]), cell_size, endless, width)
+        layers = response.stack if isinstance(response, EndedLayers) else None
+        cells = (period, shape[1])
+        table = (
+            smooth_periodic_table(cells, cell_size, width)
+            if layers is None
+            else periodic_layered_table(cells, cell_size, layers, width)
+        )
     return EndedRows(borders, table, bases, begin)
 
 

@@ -23,6 +23,7 @@ import math
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
+from numpy.polynomial import chebyshev
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.influence import influence_coefficient
@@ -33,6 +34,9 @@ GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
 #: Images on either side that are summed one by one: at least these, and up to this many lengths of
 #: a cell across.
 IMAGES = 6
+
+#: Chebyshev's nodes of what the far images add, for each length of the images summed one by one.
+FAR_NODES = 14
 
 #: Factors of the first, third, ... derivative in the Euler-Maclaurin formula from the middle.
 MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 154828800))
@@ -54,6 +58,48 @@ def periodic_influence_coefficient(
     for image in range(-images, images + 1):
         table += influence_coefficient(x + image * period, y, cell_size)
     return table
+
+
+def smooth_periodic_table(
+    shape: tuple[int, int], cell_size: tuple[float, float], datum: float
+) -> Floats:
+    """Influence coefficients [m] of a period along x at offsets of i and j cells, shape (nx, ny).
+
+    What is far is interpolated between Chebyshev's nodes, to rounding.
+    """
+    (nx, ny), (dx, dy) = shape, cell_size
+    period, images = nx * dx, max(IMAGES, math.ceil(IMAGES * dy / (nx * dx)))
+    x = np.arange(nx // 2 + 1, dtype=np.float64) * dx
+    y = np.arange(ny, dtype=np.float64) * dy
+    near = sum(
+        influence_coefficient(x[:, None] + image * period, y[None, :], cell_size)
+        for image in range(-images, images + 1)
+    )
+    along, across = (_nodes_among(each, period) for each in (x, y))
+    far = _far_images(along[:, None], across[None, :], cell_size, period, images, datum)
+    half = near + _between(x, along) @ far @ _between(y, across).T
+    offsets = np.arange(nx)
+    return np.asarray(half[np.minimum(offsets, nx - offsets)])
+
+
+def _nodes_among(places: Floats, period: float) -> Floats:
+    """Chebyshev's nodes over places for what varies over some periods, or all places [m]."""
+    length = float(places[-1])
+    count = FAR_NODES + FAR_NODES * math.ceil(length / (IMAGES * period))
+    if 2 * count > len(places):
+        return places
+    angles = np.pi * (np.arange(count) + 0.5) / count
+    return np.asarray(length / 2 * (1 - np.cos(angles)))
+
+
+def _between(places: Floats, nodes: Floats) -> Floats:
+    """Weights of values at Chebyshev's nodes in those at places, shape (places, nodes)."""
+    if nodes is places:
+        return np.eye(len(places))
+    half = (nodes[-1] - nodes[0]) / (2 * math.cos(math.pi / (2 * len(nodes))))
+    both = (chebyshev.chebvander(each / half - 1, len(nodes) - 1) for each in (nodes, places))
+    known, wanted = both
+    return np.asarray(wanted @ np.linalg.inv(known))
 
 
 def _far_images(
