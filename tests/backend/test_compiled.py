@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from viscontact.backend import compiled
+from viscontact.backend.transforms import multiply_by_even
 from viscontact.cli import main
 
 SOURCES = Path(__file__).parents[2] / "src" / "core"
@@ -59,6 +60,7 @@ broken = Path({str(tmp_path)!r}) / ("_core" + EXTENSION_SUFFIXES[0])
 broken.write_bytes(b"no binary of any system")
 backend.__path__.insert(0, str(broken.parent))
 from viscontact.backend import compiled
+from viscontact.backend.transforms import multiply_by_even
 print(compiled.core, compiled.kernels())
 """
     done = process("", "-c", script)
@@ -73,6 +75,7 @@ def test_a_core_that_is_not_built_leaves_numpy_and_says_so(tmp_path: Path) -> No
 import viscontact.backend as backend
 backend.__path__[:] = [{str(tmp_path)!r}]
 from viscontact.backend import compiled
+from viscontact.backend.transforms import multiply_by_even
 print(compiled.core, compiled.kernels())
 """
     assert process("", "-c", script).stdout == "None NumPy (no compiled core: it is not built)\n"
@@ -85,6 +88,7 @@ import sys, viscontact.backend as backend
 sys.modules.pop("viscontact.backend._core", None)
 backend.__path__.insert(0, {str(tmp_path)!r})
 from viscontact.backend import compiled
+from viscontact.backend.transforms import multiply_by_even
 print(compiled.core, compiled.kernels())
 """
     done = process("", "-c", script)
@@ -150,3 +154,26 @@ def test_largest_refuses_what_it_would_have_to_convert_or_cannot_answer() -> Non
     for other in (np.zeros(3, int), np.zeros(3, complex), [1.0], np.zeros(3, ">f8")):
         with pytest.raises(TypeError, match="incompatible function arguments"):
             compiled.core.largest(other)
+
+
+@needs_core
+@pytest.mark.parametrize("number", ["f4", "f8"])
+@pytest.mark.parametrize("is_complex", [False, True])
+@pytest.mark.parametrize(("axis", "known"), [(0, 9), (0, 5), (1, 8), (1, 5)])
+def test_a_spectrum_times_an_even_symbol_is_that_of_numpy_to_the_bit(
+    number: str, is_complex: bool, axis: int, known: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    random = np.random.default_rng(3)
+    shape = (9, 8)
+    spectrum = random.normal(size=(*shape, 2)).astype(number)
+    spectrum = (
+        spectrum.view(np.result_type(number, "c8"))[..., 0] if is_complex else spectrum[..., 0]
+    )
+    symbol = random.normal(size=(known, 8) if axis == 0 else (9, known)).astype(number)
+    for layout in (np.ascontiguousarray(spectrum), np.asfortranarray(spectrum)):
+        expected, found = layout.copy("K"), layout.copy("K")
+        multiply_by_even(found, symbol, axis)
+        with monkeypatch.context() as off:
+            off.setattr(compiled, "core", None)
+            multiply_by_even(expected, symbol, axis)
+        np.testing.assert_array_equal(found, expected)

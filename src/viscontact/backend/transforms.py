@@ -23,6 +23,13 @@ except ImportError:
 #: Real or complex fields, in single or double precision.
 Field = Numbers
 
+#: Kinds of spectra and symbols that the compiled core multiplies.
+_COMPILED = frozenset(
+    (np.dtype(of), np.dtype(number))
+    for number, *kinds in (("f4", "f4", "c8"), ("f8", "f8", "c16"))
+    for of in kinds
+)
+
 
 class Transforms(ABC):
     """Transforms of fields along an axis by one library, forward and inverse.
@@ -292,7 +299,8 @@ def multiply_by_even(spectrum: Field, symbol: Numbers, axis: int) -> None:
     >>> multiply_by_even(spectrum, np.array([[1.0, 2.0, 3.0]]), axis=1); spectrum.tolist()
     [[1.0, 2.0, 3.0, 2.0]]
     """
-    if compiled.core is not None and symbol.dtype.kind == "f" and spectrum.strides[1] > 0:
+    rows_alike = all(each.strides[1] == each.itemsize for each in (spectrum, symbol))
+    if compiled.core and rows_alike and (spectrum.dtype, symbol.dtype) in _COMPILED:
         compiled.core.filter(spectrum, symbol, axis)
         return
     known, length = symbol.shape[axis], spectrum.shape[axis]
