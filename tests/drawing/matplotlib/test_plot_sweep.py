@@ -230,6 +230,11 @@ def test_sweep_without_pull_off_has_no_figure_of_it() -> None:
     ("texts", "label", "numbers"),
     [
         (["hold for 1 s", "hold for 2 min", "hold for 1 h"], "Hold for [s]", [1, 120, 3600]),
+        (
+            ["hold force for 1 s", "hold force for 2 s", "hold force for 3 s"],
+            "Hold force for [s]",
+            [1, 2, 3],
+        ),
         (["[12 s, -3 um]", "[21 s, -3 um]", "[30 s, -3 um]"], "Load points 4 [s]", [12, 21, 30]),
         (
             ["hold force for 1 s", "hold height for 1 s", "hold force for 2 s"],

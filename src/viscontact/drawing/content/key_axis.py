@@ -78,11 +78,18 @@ def _numbered(texts: xr.DataArray) -> xr.Variable | None:
         if len({si for _, si in found}) == 1 and (has_unit or len(unlike) == 1):
             values = np.array([value for value, _ in found]).reshape(texts.shape)
             about = {"units": found[0][1], "typed_unit": units[0] if len(set(units)) == 1 else ""}
-            words = [column[0] for column in columns[max(first - 2, 0) : first]]
-            said = " ".join(words) if all(map(str.isalpha, words)) else ""
+            said = _words_before([column[0] for column in columns[:first]])
             name = {_WORDS: said[:1].upper() + said[1:]} if said else {}
             return xr.Variable(texts.dims, values, {**texts.attrs, **about, **name})
     return None
+
+
+def _words_before(words: Sequence[str]) -> str:
+    """The last three words, as of ``hold force for``, or two; empty if there are none."""
+    for last in (words[-3:], words[-2:]):
+        if last and all(map(str.isalpha, last)):
+            return " ".join(last)
+    return ""
 
 
 def _is_unit(word: str) -> bool:
