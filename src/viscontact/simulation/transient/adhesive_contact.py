@@ -44,7 +44,9 @@ LARGEST_ERROR, ERROR_ORDER = 0.01, 3
 LARGEST_FIRST_CHANGE = 0.03
 
 #: Largest change with a law that ends abruptly: its front crosses cell after cell, which no
-#: extrapolation foresees.
+#: extrapolation foresees. Spheres of Tabor numbers 0.3, 0.7 and 1 on 64² to 80² cells hold the same
+#: in steps of a quarter of it, of it, and of twice as much, within 0.05 %; in steps four times as
+#: long they hold up to 0.2 % more, in steps eight times as long 1 % less, which is what cells err.
 ABRUPT_CHANGE = 0.02
 
 #: Part of a change of the attraction that counts as one of the force [-].
