@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import csv
 import re
+import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import viscontact as vc
 from closeness import close_to
 from identification.adhesive_curves import RADIUS, curve_of
 from viscontact.case import read_case
 from viscontact.cli import main
 from viscontact.reference import jkr_sphere, maugis_dugdale
 
+#: Curve of a cell on a JPK CellHesion 200, whose source and licence are beside it.
+CELL = Path(__file__).parents[1] / "identification" / "cell.jpk-force"
 MODULUS, WORK = 2e6, 0.02
 SPRING = 3.0
 #: Length (R w²/E*²)^(1/3) [m]: the range over which the Tabor number is 1.
@@ -78,6 +83,50 @@ def test_limits_take_the_place_of_a_range_that_the_curve_does_not_tell(tmp_path,
     assert float(least[1]) * float(most[1]) == close_to(LENGTH, rel=0.05)
     assert "limit: the limit of JKR fits, and so do Tabor numbers down to" in printed
     assert "  # range: the limit of JKR fits" in out.read_text()
+
+
+def as_jpk(path: Path, curve: vc.ForceCurve) -> Path:
+    """Write a curve into the channels of a file of JPK, whose encoders tell their scales."""
+    known = vc.read_force_curve(CELL)
+    values = {"vDeflection": curve.deflection, "strainGaugeHeight": curve.position}
+    given = {"vDeflection": known.deflection, "strainGaugeHeight": known.position}
+    with zipfile.ZipFile(CELL) as source, zipfile.ZipFile(path, "w") as target:
+        for entry in source.namelist():
+            channel = next((name for name in values if entry.endswith(f"{name}.dat")), None)
+            data = source.read(entry)
+            if channel is not None:
+                part = slice(0, 2000) if entry.startswith("segments/0") else slice(2000, 4000)
+                raw = np.frombuffer(data, ">i2")
+                scale, offset = np.polyfit(raw.astype(float), given[channel][part], 1)
+                counts = np.rint((values[channel][part] - offset) / scale)
+                assert np.abs(counts).max() < 2**15
+                data = counts.astype(">i2").tobytes()
+            target.writestr(entry, data)
+    return path
+
+
+@pytest.mark.parametrize("tabor", [0.5, np.inf])
+def test_force_curve_of_jpk_gives_work_and_modulus(tmp_path, capsys, tabor):
+    pytest.importorskip("afmformats")
+    # Soft and weak, as the heights are stored in steps of 3 nm, and bending up to 0.7 µm.
+    modulus, work = 2e3, 5e-5
+    sphere = jkr_sphere(RADIUS, 1 / modulus, work)
+    if tabor < np.inf:
+        length = float(np.cbrt(RADIUS * (work / modulus) ** 2))
+        sphere = maugis_dugdale(RADIUS, 1 / modulus, work, length / tabor)
+    spring = vc.read_force_curve(CELL).spring_constant
+    curve = curve_of(sphere, spring, 0.002, np.random.default_rng(5), rows=2000)
+    middle = -24.5e-6 - curve.position.mean()
+    path = as_jpk(tmp_path / "sticky.jpk-force", replace(curve, position=curve.position + middle))
+    assert main(["fit", str(path), *TYPED]) == 0
+    printed = capsys.readouterr().out
+    for name, value in {"contact_modulus": modulus, "work": work}.items():
+        _, low, high = stated(printed, name)
+        assert low <= value <= high
+        assert high < 1.5 * low
+    pull = re.search(r"pull-off force (\S+) nN", printed)
+    assert pull is not None
+    assert float(pull[1]) == close_to(-1e9 * sphere.pull_off.force, rel=0.01)
 
 
 @pytest.mark.slow
