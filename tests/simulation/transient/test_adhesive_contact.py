@@ -392,8 +392,11 @@ def test_errors_of_jumps_and_pull_off_are_stated_and_hold_against_finer_cells():
     errors = np.array(coarse["event_time_errors"])
     assert (np.abs(np.subtract(coarse["event_times"], fine["event_times"])) <= errors).all()
     # Cells 2.3 times as large change more than the error of second order that is left: bars are
-    # several times that error, as those of families of bodies require, but less than this change.
-    assert (errors < np.abs(np.subtract(coarse["event_times"], coarser["event_times"]))).all()
+    # several times that error, as those of families of bodies require, but less than this change;
+    # that of the loss contains the time in which the gap of a cell, d²/(4 R), passes.
+    change = np.abs(np.subtract(coarse["event_times"], coarser["event_times"]))
+    change[1] += grid(28).cell_area / (4 * RADIUS) / (1.6 * DEPTH)
+    assert (errors < change).all()
     for name in ("pull_off_force", "pull_off_time"):
         assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"]
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from verification.families.adhering_bodies import maugis_sphere, pulled_program, sticking_body
 from verification.families.blunt_bodies import blunt_apex, rounded_punch, shrinking_contact
 from verification.families.eccentric_bodies import eccentric_ball, eccentric_ellipsoid
 from verification.families.ellipses import slender_ellipse, turned_ellipse
@@ -76,7 +77,12 @@ GRIPPING: dict[str, Draw] = {
     each.__name__: each for each in (pulled_body, shifted_body, turned_body)
 }
 
-FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT | GRIPPING
+#: Bodies that adhere, with seeds 1 and 2 for the choice.
+ADHERING: dict[str, Draw] = {
+    each.__name__: each for each in (maugis_sphere, sticking_body, pulled_program)
+}
+
+FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT | GRIPPING | ADHERING
 
 
 def drawn(

@@ -31,6 +31,9 @@ class ExactRun:
     events: tuple[float, ...] = ()
     #: Uncertainties of the exact values at the run's instants, where they count.
     uncertainty: Callable[[Array], dict[str, Array]] = lambda times: {}
+    #: Forces and instants of jumps of bodies that adhere, each with its uncertainty, by names of
+    #: attributes of the result, or "jump_in" and "pull_off" for the instants of both.
+    jumps: Callable[[], dict[str, tuple[Array, Array]]] = dict
 
     @property
     def arguments(self) -> dict[str, Any]:

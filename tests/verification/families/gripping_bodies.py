@@ -5,7 +5,6 @@ difference from twice the cells in halves, its own error where that falls with t
 """
 
 import math
-import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +13,7 @@ import numpy as np
 import viscontact as vc
 from verification.families.creep_curves import random_creep
 from verification.families.exact_run import ExactRun, NotDrawnError
+from verification.families.finer_runs import FinerRuns
 from verification.families.random_loads import (
     Points,
     history_of_points,
@@ -104,7 +104,7 @@ def _gripped(rng: np.random.Generator, name: str, load_along: Any, most: float) 
         exact=lambda at: {},
         more=more,
     )
-    finer = _Finer(run)
+    finer = FinerRuns(run, SCALARS, 2.0)
     return replace(run, exact=finer.values, uncertainty=finer.uncertainty)
 
 
@@ -122,42 +122,3 @@ def _corners(rng: np.random.Generator, end: float, most: float) -> tuple[Array, 
     if rng.random() < 0.3:  # on and on, not to and fro
         sizes = np.sort(np.abs(sizes))
     return end * parts / parts[-1], np.append(0.0, sizes)
-
-
-class _Finer:
-    """Scalars of a run on finer cells in smaller steps, each computed once."""
-
-    def __init__(self, run: ExactRun) -> None:
-        self._run = run
-        self._found: dict[int, dict[str, Array]] = {}
-
-    def values(self, times: Array) -> dict[str, Array]:
-        """The most exact scalars at some of the run's instants."""
-        return self._at(times, 3)
-
-    def uncertainty(self, times: Array) -> dict[str, Array]:
-        """How far they may be off."""
-        finest, other = self._at(times, 3), self._at(times, 2)
-        return {name: 2 * np.abs(finest[name] - other[name]) for name in finest}
-
-    def _at(self, times: Array, factor: int) -> dict[str, Array]:
-        if factor not in self._found:
-            self._found[factor] = self._scalars(factor)
-        places = np.searchsorted(self._run.times, times)
-        return {name: values[places] for name, values in self._found[factor].items()}
-
-    def _scalars(self, factor: int) -> dict[str, Array]:
-        run, times = self._run, np.asarray(self._run.times)
-        parts = np.arange(1, factor + 1) / factor
-        inner = times[:-1, None] + np.diff(times)[:, None] * parts
-        inner[:, -1] = times[1:]
-        given = run.arguments
-        grid: Any = run.grid
-        shape = grid.shape[0] * factor, grid.shape[1] * factor
-        given |= {"grid": replace(grid, shape=shape), "times": np.append(times[0], inner)}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", vc.AccuracyWarning)
-            states = [state.without_fields() for state in vc.march(**given)]
-        at = {state.time: state for state in states}  # the later state of a jump
-        kept = [at[time] for time in times]
-        return {name: np.array([getattr(state, name) for state in kept]) for name in SCALARS}

@@ -16,6 +16,7 @@ from viscontact.simulation.accuracy.coarser_runs import march_coarser_run, plan_
 from viscontact.simulation.accuracy.error_bars import error_bars_from
 from viscontact.simulation.accuracy.first_and_last_contact import ZERO_WITHOUT_CONTACT
 from viscontact.simulation.transient.found_events import carried_out
+from viscontact.simulation.transient.provenance import contact_event_attributes, run_attributes
 from viscontact.simulation.transient.setup import prepare_run
 from viscontact.simulation.transient.state_generator import march_run
 
@@ -46,6 +47,17 @@ def solve(family: str, drawn: ExactRun, *, sampled: int | None = None) -> dict[s
     begin = time.process_time()
     times = record["history"]["time"]
     places = np.arange(len(times)) if sampled is None else _sample(record, sampled)
+    try:
+        _add_truth(record, drawn, places)
+    except ConvergenceError as error:  # of a finer run
+        return record | {"refused": f"truth: {error}"}
+    record["seconds_exact"] = time.process_time() - begin
+    return record
+
+
+def _add_truth(record: dict[str, Any], drawn: ExactRun, places: np.ndarray) -> None:
+    """Add exact values at some instants, with their uncertainty, and those of events and jumps."""
+    times = record["history"]["time"]
     for name, values_at in (("exact", drawn.exact), ("uncertainty", drawn.uncertainty)):
         record[name] = {}
         for quantity, values in values_at(times[places]).items():
@@ -53,8 +65,7 @@ def solve(family: str, drawn: ExactRun, *, sampled: int | None = None) -> dict[s
             record[name][quantity][places] = values
     if drawn.events:
         _add_events(record, drawn.events)
-    record["seconds_exact"] = time.process_time() - begin
-    return record
+    _add_jumps(record, drawn.jumps())
 
 
 def _add_events(record: dict[str, Any], exact: tuple[float, ...]) -> None:
@@ -73,6 +84,33 @@ def _add_events(record: dict[str, Any], exact: tuple[float, ...]) -> None:
         ("bars", record["event_errors"]),
     ):
         record[kind]["event_time"] = np.append(values, np.full(count - len(values), np.nan))
+
+
+def _add_jumps(record: dict[str, Any], exact: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
+    """Add forces and instants of jumps as scalars, over the first instants."""
+    count = len(record["history"]["time"])
+
+    def over_time(values: Any) -> np.ndarray:
+        return np.append(values, np.full(count - len(values), np.nan))
+
+    for name, (values, uncertainty) in exact.items():
+        found, errors = jumps_in(record["attributes"], name)
+        # Another number of jumps: which is which is not known.
+        same = len(found) == len(values)
+        record["history"][name] = over_time(found)
+        record["bars"][name] = over_time(errors)
+        record["exact"][name] = over_time(values if same else np.full(len(found), np.nan))
+        record["uncertainty"][name] = over_time(uncertainty if same else np.zeros(len(found)))
+
+
+def jumps_in(attributes: Any, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Values and errors of an attribute of jumps, or the instants of a kind of jump [s]."""
+    if name in attributes:
+        return np.array([attributes[name]]), np.array([attributes[f"{name}_error"]])
+    kinds = np.array(attributes["event_kind"].split("\n"))
+    times, errors = (np.array(attributes[f"event_time{end}"]) for end in ("s", "_errors"))
+    # A condition of a program that ends on the loss of contact is met at its instant, too.
+    return times[kinds == name], errors[kinds == name]
 
 
 def _solved(drawn: ExactRun) -> dict[str, Any]:
@@ -101,9 +139,18 @@ def _solved(drawn: ExactRun) -> dict[str, Any]:
         "bars": bars.values,
         "bar_warnings": bars.warnings,
         "event_errors": bars.attributes.get("event_time_errors", ()),
+        "attributes": attributes_of(setup, states, bars.attributes),
         "seconds": own,
         "seconds_coarser": coarser,
     }
+
+
+def attributes_of(setup: Any, states: Any, described: Any) -> dict[str, Any]:
+    """Attributes of jumps of bodies that adhere, with errors described; none of others."""
+    if setup.problem.adhesion is None:
+        return {}
+    events = [event for state in states for event in state.events]
+    return contact_event_attributes(events, run_attributes(setup) | dict(described))
 
 
 def counted(name: str, history: Any, exact: dict[str, np.ndarray]) -> np.ndarray:

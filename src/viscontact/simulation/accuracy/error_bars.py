@@ -98,6 +98,14 @@ EXTENT_OF_AREA = 0.75
 #: the loss, and many of the largest were there.
 BEFORE_LOSS = 2.0
 
+#: Scalars of bodies that adhere that the fronts of contact and cohesive zone move to and fro as
+#: they cross the cells, with errors of one size and changing sign: grids agree at some instants by
+#: chance. Their bars are at least this part of the median one of the contact.
+MOVED_BY_FRONTS = (
+    *("force", "approach", "contact_area", "contact_length", "contact_width", "least_pressure"),
+)
+PART_OF_MEDIAN = 0.7
+
 #: Part of the largest errors so far of moments that a creeping body keeps: while a contact hardly
 #: grows, its rim stays among the same cells, and coarser grids may agree for long by chance.
 KEPT_OF_MOMENTS = 0.35
@@ -260,9 +268,17 @@ def _bar(
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     if name not in CUMULATIVE:
         bar = np.where(before_loss(history), BEFORE_LOSS * bar, bar)
-    if run.problem.is_coupled:
-        bar = COUPLED * bar
+    bar = COUPLED * bar if run.problem.is_coupled else bar
+    bar = _as_usual(run, name, bar, differs & (area > 0))
     return np.where(np.isnan(own), np.nan, bar)
+
+
+def _as_usual(run: RunSetup, name: str, bar: Floats, here: Bools) -> Floats:
+    """Bars of bodies that adhere at some instants, no less than a part of their median there."""
+    known = here & np.isfinite(bar)
+    if run.law is None or name not in MOVED_BY_FRONTS or not known.any():
+        return bar
+    return np.where(here, np.fmax(bar, PART_OF_MEDIAN * np.median(bar[known])), bar)
 
 
 def _by_cells(

@@ -22,6 +22,7 @@ from viscontact.simulation.accuracy.error_models import (
 )
 from viscontact.simulation.accuracy.least_bars import TINY
 from viscontact.simulation.accuracy.refinement_levels import DIVIDED_STEP_FACTOR, RefinementLevels
+from viscontact.simulation.checks.adhesive_limits import effective_radius
 from viscontact.simulation.transient.provenance import JUMP_TIME_ERRORS, event_attributes
 from viscontact.simulation.transient.setup import RunSetup
 
@@ -88,8 +89,23 @@ def pull_off_errors(run: RunSetup, results: list[CoarserResult]) -> dict[str, An
         if len({len(each.times_of(kind)) for each in results}) == 1:
             times = results[0].times_of(kind)
             steps = [SHORTEST_ADHESIVE_STEP * stretch_at(load, each, end) for each in times]
-            errors[kind] = (_from_grids(results, methodcaller("times_of", kind)) + steps).tolist()
+            by_cells = _from_grids(results, methodcaller("times_of", kind)) + steps
+            if kind == "pull_off":
+                pairs = zip(times, steps, strict=True)
+                by_cells += [_cell_time(run, time, step) for time, step in pairs]
+            errors[kind] = by_cells.tolist()
     return found | {JUMP_TIME_ERRORS: errors}
+
+
+def _cell_time(run: RunSetup, time: float, step: float) -> float:
+    """Time in which a given approach passes the gap of the cells nearest to an apex [s]."""
+    # Where the contact shrinks to nothing without a jump, all grids lose it as they lose a cell.
+    radius = effective_radius(run.problem.indenter)
+    load = run.problem.contact_load
+    before, at = (load.at(each, side="left").approach for each in (time - step, time))
+    if radius is None or before is None or at is None or at == before:
+        return 0.0
+    return run.grid.cell_area / (4 * radius) * step / abs(at - before)
 
 
 def _from_grids(
