@@ -184,7 +184,7 @@ def test_a_package_runs_from_an_environment_of_its_own(
     if package == plain:
         kernels = "NumPy (no compiled core: it is not built)"
     assert re.search(rf"^inner loops +{re.escape(kernels)} *$", said, re.MULTILINE)
-    ran(command, "example", "sphere-zener", "-o", "my.yaml", folder=tmp_path)
+    ran(command, "example", "sphere-zener", "-o", "my.yaml", folder=tmp_path, **usual)
     ran(command, "run", "my.yaml", "--set", "time.steps=3", "-q", folder=tmp_path, **usual)
     assert (tmp_path / "my" / "result.nc").is_file()
 
