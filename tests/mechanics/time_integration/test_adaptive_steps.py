@@ -217,3 +217,19 @@ def test_a_step_is_repeated_with_a_duration_at_most():
     assert steps.next_step().duration == close_to(0.3 * first.duration)
     steps.repeat_shorter(1.4, math.inf)
     assert steps.next_step().duration == close_to(0.15 * first.duration)
+
+
+def test_a_jump_that_is_not_solved_is_tried_sooner_a_few_times():
+    load = ApproachHistory([0.0, 1.0], [1e-6, -1e-6])
+    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    steps.accept_step(0.0)
+    while not steps.next_step().is_shortest:
+        steps.accept_step(0.0, math.inf)
+    begin, durations = steps.next_step().duration, []
+    while steps.repeat_sooner():
+        durations.append(steps.next_step().duration)
+    assert durations == close_to([begin * 0.3**k for k in range(1, len(durations) + 1)], rel=1e-6)
+    assert 1 <= len(durations) <= 5
+    without = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN)
+    without.accept_step(0.0)
+    assert not without.repeat_sooner()

@@ -43,6 +43,9 @@ FIRST_STEP_FRACTION = 0.02
 #: Longest steps of a curved load in one of its stretches: about a cycle.
 CYCLE_STEPS = 64.0
 
+#: Part of a step in which a jump is tried again, and least part of the shortest one of a jump.
+SOONER, LEAST_JUMP = 0.3, 0.01
+
 #: Steps from one kink of the load to the next at a tolerance of 1e-3, and for an elastic body;
 #: measured on spheres, within a factor of two.
 STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
@@ -176,6 +179,17 @@ class AdaptiveSteps:
         assert self._step is not None  # there was one that is too long
         self._duration = longest
         self._step = self._next_step(self._step.smooth)
+
+    def repeat_sooner(self) -> bool:
+        """Choose a shorter step in place of a jump that was not solved; False if there is none."""
+        # The contact may not have reached the end of its state yet, or take another way from there.
+        if self._step is None or self._jumps_in is None or self._step.is_jump:
+            return False
+        shortest = self._jumps_in * stretch_at(self._load, self._time, self._end)
+        if self._step.duration <= LEAST_JUMP * shortest:
+            return False
+        self.repeat_shorter(math.inf, SOONER * self._step.duration)
+        return True
 
     def restart_data(self) -> RestartData:
         """Restart data of the controller."""

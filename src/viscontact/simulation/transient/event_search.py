@@ -133,6 +133,10 @@ class EventSearch:
                 assert isinstance(steps, AdaptiveSteps)  # of bodies that adhere
                 steps.repeat_shorter(found.change, found.longest)
                 continue
+            except ConvergenceError:
+                if isinstance(steps, AdaptiveSteps) and steps.repeat_sooner():
+                    continue
+                raise
             if not steps.accept_step(solved.trial.error.relative, solved.trial.change):
                 continue
             if solved.state.outcome is Outcome.PULLED_OFF:

@@ -117,9 +117,16 @@ class March:
             if self._outgrows(step, trial):
                 continue  # the same step again, on the larger grid
             failed = trial.outcome is Outcome.NOT_CONVERGED
+            if failed and self._repeats_sooner():
+                continue
             if failed or self._steps.accept_step(trial.error.relative, trial.change):
                 return step, trial
             _LOG.debug("step to t = %.6g s: error %.2g, repeated", step.time, trial.error.relative)
+
+    def _repeats_sooner(self) -> bool:
+        """Try a jump that was not solved in a shorter step; return whether there is one."""
+        steps = self._steps
+        return isinstance(steps, time_integration.AdaptiveSteps) and steps.repeat_sooner()
 
     def _outgrows(self, step: TimeStep, trial: TrialStep) -> bool:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
