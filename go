@@ -301,8 +301,11 @@ def core_fingerprint() -> str:
 
 
 def core_is_ready() -> bool:
-    """Return whether the core was compiled of these sources, or could not be."""
-    return CORE_STAMP.exists() and CORE_STAMP.read_text() == core_fingerprint()
+    """Return whether the core was compiled of these sources and is there, or could not be."""
+    stamp = CORE_STAMP.read_text().split() if CORE_STAMP.exists() else []
+    place = ROOT / "src" / "viscontact" / "backend"
+    is_there = any(place.glob("_core*.so")) or any(place.glob("_core*.pyd"))
+    return stamp == [core_fingerprint(), "compiled" if is_there else "failed"]
 
 
 def compile_core() -> None:
@@ -324,7 +327,7 @@ def compile_core() -> None:
     reason = said.splitlines()[-1] if said else "no reason given"
     ended = f"no compiled core, so runs use NumPy: {reason}" if failed else "the core is compiled"
     print(f"go: {ended}", flush=True)
-    CORE_STAMP.write_text(core_fingerprint())
+    CORE_STAMP.write_text(f"{core_fingerprint()} {'failed' if failed else 'compiled'}")
 
 
 def show_left(left: int) -> None:

@@ -147,7 +147,6 @@ void difference(const Plane &plane, const Doubles &ahead, const Doubles &pressur
                 const Singles &step) {
     plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (std::ptrdiff_t i = begin; i < end; ++i) difference_row(ahead, pressure, scale, step, i);
-        return true;
     });
 }
 double move(const Plane &plane, const Doubles &pressure, const Doubles &displacement, const Singles &step,

@@ -9,6 +9,7 @@ nanobind, which are in the locks. VISCONTACT_CORE=off leaves the core out.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shutil
@@ -141,10 +142,29 @@ def lacks() -> list[str]:
 
 def into_checkout() -> Path:
     """Compile the core and put it into the package of this checkout, in place of an earlier one."""
-    for earlier in () if is_off() else (*PLACE.glob("_core*.so"), *PLACE.glob("_core*.pyd")):
-        earlier.unlink()  # built of other sources, or for another Python
-    extension = compiled()
-    return Path(shutil.copy2(extension, PLACE / extension.name))
+    earlier = [] if is_off() else [*PLACE.glob("_core*.so"), *PLACE.glob("_core*.pyd")]
+    try:
+        extension = compiled()
+    except NotCompiledError:
+        remove(earlier)  # built of other sources, or for another Python
+        raise
+    # At once: a run that starts meanwhile finds the earlier one or this one, and no half of a file.
+    place = PLACE / extension.name
+    copy = Path(shutil.copy2(extension, PLACE / f".{extension.name}"))
+    try:
+        copy.replace(place)
+    except PermissionError as error:  # Windows keeps what a process has loaded
+        copy.unlink()
+        raise NotCompiledError(f"{place.name} is in use: {error}") from error
+    remove([each for each in earlier if each != place])
+    return place
+
+
+def remove(files: list[Path]) -> None:
+    """Delete files, but for those that a process has loaded, on Windows."""
+    for each in files:
+        with contextlib.suppress(PermissionError):
+            each.unlink()
 
 
 def main(argv: list[str]) -> int:

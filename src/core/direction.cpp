@@ -101,7 +101,6 @@ double direct(const Plane &plane, const Singles &found, const Singles &direction
 #pragma omp simd
             for (std::ptrdiff_t j = 0; j < found.columns; ++j) here[j] = share * last[j] - here[j];
         }
-        return true;
     });
     return slopes[0];
 }

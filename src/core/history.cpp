@@ -18,7 +18,6 @@ void weighted_sum(double *sum, std::ptrdiff_t size, const std::vector<double> &w
             }
             std::copy(total, total + count, sum + first);
         }
-        return true;
     });
 }
 
@@ -95,7 +94,6 @@ void follow_trends(const Field<double> &gap, const Field<double> &pressure, cons
                 left_later[j] = touches[j] || (left[j] && gap_then[j]);
             }
         }
-        return true;
     });
 }
 

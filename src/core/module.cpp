@@ -8,6 +8,7 @@ namespace {
 template <class Number, class Real>
 void filter(Array<Number> spectrum, Array<const Real> symbol, int axis) {
     const Shape shape = shape_of(spectrum), factors = shape_of(symbol);
+    if (axis != 0 && axis != 1) throw std::invalid_argument("the axis is 0 or 1");
     const bool along_rows = axis == 0;
     const auto whole = along_rows ? shape.rows : shape.columns, known = along_rows ? factors.rows : factors.columns;
     const bool fits = along_rows ? shape.columns == factors.columns : shape.rows == factors.rows;

@@ -99,20 +99,27 @@ double fit_row(const Plane &plane, const Motion &by, const Flags &contact, const
     const double *y = plane.y.data();
     const Gap level = static_cast<Gap>(by[0] + by[1] * plane.x[i]);
     const double tilt = by[2];
-    Gap largest = 0, least = 0;
+    Gap largest = 0, least = 0, unknown = 0;
     const std::ptrdiff_t columns = plane.columns();
-#pragma omp simd reduction(max : largest) reduction(min : least)
+#pragma omp simd reduction(max : largest) reduction(min : least) reduction(+ : unknown)
     for (std::ptrdiff_t j = 0; j < columns; ++j) {
         const Gap levelled = here[j] - (level + static_cast<Gap>(tilt * y[j]));
         here[j] = levelled;
         const Gap held = touches[j] ? levelled : Gap(0);
         largest = held > largest ? held : largest;
         least = levelled < least ? levelled : least;
+        unknown += levelled == levelled ? Gap(0) : Gap(1);
     }
-    return std::max<double>(largest, -least);
+    return unknown > 0 ? NONE : std::max<double>(largest, -least);
+}
+
+// Comparisons lose what is not a number.
+void take_larger(double &largest, double value) {
+    if (value > largest || value != value) largest = value;
 }
 
 }  // namespace
+
 template <class Gap>
 Measured measure(const Plane &plane, const Doubles &pressure, const Doubles &displacement,
                  const Doubles &open_gap, double compliance, const Motion &motion, const Free &free,
@@ -139,11 +146,11 @@ Measured measure(const Plane &plane, const Doubles &pressure, const Doubles &dis
     const auto errors = plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         double largest = 0;
         for (std::ptrdiff_t i = begin; i < end; ++i)
-            largest = std::max(largest, fit_row(plane, in_unit, contact, gap, i));
+            take_larger(largest, fit_row(plane, in_unit, contact, gap, i));
         return largest;
     });
-    found.error = *std::max_element(errors.begin(), errors.end());
-    // Comparisons lose what is not a number.
+    found.error = 0;
+    for (const double error : errors) take_larger(found.error, error);
     if (opened.unknown || correction[0] != correction[0]) found.error = found.largest = NONE;
     return found;
 }

@@ -1,7 +1,6 @@
 #include "rim.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
 #include "rows.hpp"
 
@@ -146,6 +145,7 @@ double EdgeLaw::distance(double first, double second, double third) const {
 double EdgeLaw::offset(double slope) const {
     const double size = std::abs(slope);
     if (size >= slopes.back()) return offsets.back();
+    if (slopes.size() == 1 || !(size > slopes.front())) return std::isnan(size) ? size : offsets.front();
     std::size_t k = 0;
     while (k + 2 < slopes.size() && size >= slopes[k + 1]) ++k;
     const double part = (offsets[k + 1] - offsets[k]) / (slopes[k + 1] - slopes[k]);
@@ -241,7 +241,7 @@ std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells) {
     std::ptrdiff_t first_row = -1, last_row = -1, first = cells.columns, last = -1;
     for (std::ptrdiff_t i = 0; i < cells.rows; ++i) {
         const Flag *row = cells.row(i), *end = row + cells.columns;
-        const Flag *begin = std::find(row, end, Flag(1));
+        const Flag *begin = std::find_if(row, end, [](Flag each) { return each != 0; });
         if (begin == end) continue;
         if (first_row < 0) first_row = i;
         last_row = i;
@@ -256,8 +256,7 @@ Extents extents(const Field<Flag> &contact, const Rim &rim) {
     Extents found{0, 0, 0, 0};
     const auto [first_row, last_row, first_column, last_column] = spans(contact);
     for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
-        found.rows += std::find(contact.row(i), contact.row(i) + contact.columns, Flag(1)) !=
-                      contact.row(i) + contact.columns;
+        found.rows += std::any_of(contact.row(i), contact.row(i) + contact.columns, [](Flag each) { return each; });
     for (std::ptrdiff_t j = 0; j < contact.columns; ++j)
         for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
             if (contact.row(i)[j]) {

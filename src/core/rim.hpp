@@ -18,7 +18,7 @@ struct EdgeLaw {
     double offset(double slope) const;
 };
 
-// Where a contact recedes; without fields nothing does.
+// Where a contact recedes.
 struct Recession {
     Field<double> pressure;
     Field<Flag> falls, opens, left;

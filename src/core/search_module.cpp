@@ -49,6 +49,8 @@ void define_search(nb::module_ &module) {
         .def("__init__",
              [](Plane *self, Line x, Line y, std::tuple<double, double> cell_size,
                 std::tuple<bool, bool> mirrored, int threads) {
+                 if (x.shape(0) == 0 || y.shape(0) == 0)
+                     throw std::invalid_argument("a plane has a row and a column at least");
                  new (self) Plane({x.data(), x.data() + x.shape(0)}, {y.data(), y.data() + y.shape(0)},
                                   std::get<0>(cell_size), std::get<1>(cell_size), std::get<0>(mirrored),
                                   std::get<1>(mirrored), threads);

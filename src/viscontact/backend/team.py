@@ -110,7 +110,8 @@ class Team:
         2.0
         """
         if self.core is not None:
-            return float(self.core.mean_change(where, late, early, self.threads))
+            given = (None if each is None else np.ascontiguousarray(each) for each in (late, early))
+            return float(self.core.mean_change(np.ascontiguousarray(where), *given, self.threads))
 
         def sums(rows: slice) -> tuple[int, float]:
             here = late[rows] if early is None else late[rows] - early[rows]
@@ -128,6 +129,7 @@ class Team:
         """
         if self.core is not None and any(mirrored):
             unfold = self.core.unfold_flags if field.dtype == bool else self.core.unfold
+            field = np.ascontiguousarray(field, bool if field.dtype == bool else np.float64)
             shape = [count * (1 + even) for count, even in zip(field.shape, mirrored, strict=True)]
             whole = np.empty(shape, field.dtype)
             unfold(field, whole)
@@ -144,7 +146,8 @@ class Team:
         (slice(0, 2, None), slice(1, 2, None))
         """
         if self.core is not None:
-            first_row, last_row, first_column, last_column = self.core.spans(cells)
+            found = self.core.spans(np.ascontiguousarray(cells))
+            first_row, last_row, first_column, last_column = found
             if last_row < 0:
                 return None
             return slice(first_row, last_row + 1), slice(first_column, last_column + 1)

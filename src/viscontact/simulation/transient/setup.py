@@ -122,7 +122,7 @@ class RunSetup:
         core_by(inner_loops)
         return replace(self, transforms=transforms, inner_loops=inner_loops)
 
-    @cached_property
+    @property
     def team(self) -> Team:
         """Threads and inner loops that work on fields of the whole grid."""
         return Team(self.threads, core_by(self.inner_loops))

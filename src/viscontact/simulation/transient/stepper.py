@@ -187,7 +187,7 @@ class Stepper:
         self._errors.restore(restart_data["errors"])
         self._scale = restart_data["scale"]
         self._references = [ElasticReference(**each) for each in restart_data["references"]]
-        self._motion, self._slow = restart_data["motion"], restart_data.get("slow", 0.0)
+        self._motion, self._slow = restart_data["motion"], restart_data["slow"]
         if self._adhesive is not None:
             self._adhesive.restore(restart_data["adhesive"])
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -263,6 +265,31 @@ def test_threads_do_not_change_a_bit() -> None:
         np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the limit is one of Linux")
+def test_threads_that_the_system_refuses_leave_their_work_to_the_caller() -> None:
+    script = """
+import resource
+import numpy as np
+from viscontact.backend import compiled
+axis, values = np.linspace(-1.0, 1.0, 600), np.random.default_rng(1).random((600, 600))
+alone, many = (compiled.core.Plane(axis, axis, (1.0, 1.0), (False, False), n) for n in (1, 64))
+pages = int(open("/proc/self/statm").read().split()[0])
+limit = pages * resource.getpagesize() + 2**22  # no room for the stack of a thread
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+print(compiled.core.sums(many, values) == compiled.core.sums(alone, values))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (done.stdout, done.returncode) == ("True\n", 0), done.stderr
+
+
+def test_numbers_of_threads_below_one_are_one() -> None:
+    axis, values = np.linspace(-1.0, 1.0, 600), np.ones((600, 600))
+    assert compiled.core is not None
+    for threads in (0, -1):
+        plane = compiled.core.Plane(axis, axis, (1.0, 1.0), (False, False), threads)
+        assert compiled.core.sums(plane, values)[0] == 600**2
+
+
 @pytest.mark.parametrize("kind", [NumPyPasses, CompiledPasses])
 def test_what_is_no_number_has_no_residual(kind: type) -> None:
     fields = Fields(1, (5, 6), (False, False), (True, True, True), 1.0)
@@ -275,6 +302,13 @@ def test_what_is_no_number_has_no_residual(kind: type) -> None:
             values, np.zeros(3), (fields.field(), 0.7), fields.constraints, into
         )
     assert np.isnan(measured.error)
+    values[1, 2, 3] = values[0, 1, 1] = 0.0  # an open cell, which the motion does not fit
+    open_gap = fields.field()
+    open_gap[1, 1] = np.nan
+    with np.errstate(invalid="ignore"):
+        measured = passes.measure(values, np.zeros(3), (open_gap, 0.7), fields.constraints, into)
+    assert np.isnan(measured.error)
+    values[1, 2, 3] = np.nan
     with np.errstate(invalid="ignore"):
         assert not passes.balance(values[1], fields.constraints, 1e-6, 1.0)
 
@@ -301,6 +335,10 @@ def test_arrays_of_another_kind_or_shape_are_refused() -> None:
         core.weighted_sum(double, [1.0], [np.zeros((4, 6))], 1)
     with pytest.raises(ValueError, match="each field has a weight"):
         core.weighted_sum(double, [1.0, 2.0], [double], 1)
+    with pytest.raises(ValueError, match="a plane has a row and a column"):
+        core.Plane(np.zeros(0), np.zeros(1), (1.0, 1.0), (False, False), 1)
+    with pytest.raises(ValueError, match="the axis is 0 or 1"):
+        core.filter(single, single, 2)
     with pytest.raises(ValueError, match="no half of the spectrum"):
         core.filter(single, single[:2].copy(), 0)
 
@@ -311,7 +349,7 @@ def test_trends_unfolded_fields_and_weighted_sums(problem: Any) -> None:
     fields = Fields(**problem)
     alone, together = Team(), Team(core=compiled.core)
     mirrored = problem["mirrored"]
-    for field in (np.ascontiguousarray(fields.field()), fields.flags().copy()):
+    for field in (fields.field(), fields.field().T, fields.flags(), fields.field(np.float32)):
         np.testing.assert_array_equal(
             together.unfold(field, mirrored), alone.unfold(field, mirrored)
         )

@@ -30,7 +30,7 @@ class CompiledPasses(SearchPasses):
         """See `SearchPasses.measure`."""
         taken = None
         if step is not None:
-            taken = (step.ahead, step.step, step.change, step.part, step.unit)
+            taken = step.ahead, step.step, step.change, float(step.part), float(step.unit)
         found, inverse, largest, error = self._core.measure(
             *(self._cells, *values, *spring, tuple(motion.tolist()), constraints.free_motions),
             *(unit, *into, taken),

@@ -61,9 +61,9 @@ class NumPyPasses(SearchPasses):
             here = gap[block.rows]
             here -= block.field(correction / unit, gap.dtype)
             held = np.where(contact[block.rows], here, gap.dtype.type(0))
-            return max(float(held.max()), -float(here.min()))
+            return float(np.maximum(held.max(), -here.min()))
 
-        # Not `max`, which may pass over NaN.
+        # Not Python's `max`, which may pass over NaN.
         error = float(np.max([0.0, *self._plane.each(fitted)]))
         return Measured(motion + correction, inverse, max(largest), error)
 
