@@ -53,6 +53,16 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
     if is_layered(ds) or is_layered(ds, "indenter_material"):
         yield "Layers", _splitting(ds)
+    yield from _of_ends(ds)
+    for number, event in enumerate(recorded_events(ds), start=1):
+        yield f"Event {number}", event.text
+    yield "Error estimation", _coarser_runs(ds)
+    if _is_marked(ds):
+        yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
+
+
+def _of_ends(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Statements on the free ends of bodies."""
     ends = float(ds.attrs.get("ends_error", 0.0))
     if ends > 0:
         yield (
@@ -71,11 +81,6 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
                 "another way than their operator), part of those above"
             ),
         )
-    for number, event in enumerate(recorded_events(ds), start=1):
-        yield f"Event {number}", event.text
-    yield "Error estimation", _coarser_runs(ds)
-    if _is_marked(ds):
-        yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
 
 
 def _splitting(ds: xr.Dataset) -> str:

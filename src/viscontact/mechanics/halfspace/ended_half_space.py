@@ -110,6 +110,18 @@ class EndedRows:
     #: Under a load that moves along y; coefficients are at signed offsets then, for one plane, too.
     moving: MovingCompliance | None = None
 
+    def mirrored_coefficients(
+        self, shape: tuple[int, int], cell_size: tuple[float, float]
+    ) -> Floats:
+        """Coefficients of the mirrored half-space over a shape of cells with its image [m]."""
+        rows, columns = shape
+        if self.moving is not None:
+            middle = self.coefficients.shape[1] // 2
+            return self.coefficients[:rows, middle - columns + 1 : middle + columns]
+        if None not in self.borders:
+            return self.coefficients[:, :columns]
+        return influence_table(shape, cell_size)
+
 
 def ended_rows(
     response: EndedResponse,
@@ -271,13 +283,7 @@ class EndedConvolution:
         self._rows = slice(start, start + end - begin)
         ny = self.shape[1] * (1 + mirrored)
         periodic, moving = None not in ended.borders, ended.moving
-        if moving is not None:
-            middle = ended.coefficients.shape[1] // 2
-            coefficients = ended.coefficients[: 2 * count, middle - ny + 1 : middle + ny]
-        elif periodic:
-            coefficients = ended.coefficients[:, :ny]
-        else:
-            coefficients = influence_table((2 * count, ny), cell_size)
+        coefficients = ended.mirrored_coefficients((2 * count, ny), cell_size)
         self._mirrored = Convolution(
             coefficients,
             mirrored=(True, mirrored),

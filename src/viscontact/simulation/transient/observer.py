@@ -13,7 +13,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools
 from viscontact.backend.errors import DomainError
 from viscontact.backend.transforms import largest_of
-from viscontact.bodies.grid import MIN_CELLS_ACROSS
+from viscontact.bodies.grid import MIN_CELLS_ACROSS, Grid
 from viscontact.bodies.loads.history import LoadPoint
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
@@ -366,13 +366,11 @@ def _state(
     """
     adheres, has_datum = run.law is not None, run.problem.has_datum(rim.grid)
     grown = run.problem.thickening_at(step.time)
-    force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
+    force = float(solution.resultants[0])
     touching = bool(solution.in_contact.any()) if adheres else force > 0
-    # Along its period a surface has no centre from which the force could be offset.
-    centred_x, centred_y = (touching and not repeats for repeats in rim.grid.periodic)
-    # Pressure and attraction that cancel have a moment, but no place where a force acts.
-    borne = float(np.abs(solution.pressure).sum()) * rim.grid.cell_area if adheres else 0.0
-    is_offset = abs(force) > NO_FORCE * borne
+    eccentricity_x, eccentricity_y = (
+        _eccentricities(solution, rim.grid, adheres=adheres) if touching else (math.nan,) * 2
+    )
     peak = max(float(solution.pressure.max()), 0.0)
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak if peak > 0 else 0.0) if touching else 0.0
@@ -386,8 +384,8 @@ def _state(
         line_load=load,
         grid=rim.grid,
         force=force,
-        eccentricity_x=moment_x / force if centred_x and is_offset else math.nan,
-        eccentricity_y=moment_y / force if centred_y and is_offset else math.nan,
+        eccentricity_x=eccentricity_x,
+        eccentricity_y=eccentricity_y,
         approach=float(solution.motion[0]) - grown if has_datum else math.nan,
         tilt_x=float(solution.motion[1]) if run.tilts_from_datum else math.nan,
         tilt_y=float(solution.motion[2]),
@@ -406,3 +404,18 @@ def _state(
         outcome=solution.outcome,
         **moved,
     )
+
+
+def _eccentricities(solution: StepSolution, grid: Grid, *, adheres: bool) -> tuple[float, float]:
+    """Places of the force along x and y [m]; NaN where it has none."""
+    force, *moments = (float(resultant) for resultant in solution.resultants)
+    # Pressure and attraction that cancel have a moment, but no place where a force acts.
+    borne = float(np.abs(solution.pressure).sum()) * grid.cell_area if adheres else 0.0
+    if abs(force) <= NO_FORCE * borne:
+        return math.nan, math.nan
+    # Along its period a surface has no centre from which the force could be offset.
+    along_x, along_y = (
+        math.nan if repeats else moment / force
+        for moment, repeats in zip(moments, grid.periodic, strict=True)
+    )
+    return along_x, along_y

@@ -1,4 +1,4 @@
-"""What the search for the pressure of one contact does cell by cell, in passes over a patch.
+"""Passes of the search for the pressure of one contact over the cells of a patch.
 
 `NumPyPasses` has them in NumPy. `CompiledPasses` has the same in C++, where a few cells take a
 fiftieth and many cells half of the time. The two agree to rounding, not to the bit, so that a run
