@@ -5,7 +5,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.mechanics.problem.creeping_stack import CreepingStack
-from viscontact.mechanics.problem.separation import separate
+from viscontact.mechanics.problem.separation import WORST, separate
 from viscontact.mechanics.problem.shear_separation import separate_shear
 
 RUBBER = vc.Material(vc.CreepSeries(5e-7, [5e-7, 1e-6], [1.0, 30.0]), 0.48)
@@ -56,12 +56,21 @@ def _talbot(transform, time, count=32):
 
 
 @pytest.mark.slow
-def test_layers_of_which_no_short_sum_comes_close_are_refused():
-    # An elastic layer on a fluid of its modulus: long waves sink without end.
-    fluid = vc.Material(vc.Maxwell(1e6, 2e6), 0.498605)
-    layer = vc.Layer(4.19834e-4, vc.Material(vc.Elastic(1e6), 0.5))
-    body = vc.Layered([layer], base=fluid)
-    with pytest.raises(ValueError, match="no short sum of terms comes close"):
-        separate(body)
-    with pytest.raises(ValueError, match="no short sum of terms comes close"):
-        separate_shear(body)
+@pytest.mark.parametrize("separated", [separate, separate_shear])
+def test_layers_of_which_no_short_sum_comes_close_are_refused(separated):
+    """An elastic layer on a fluid of its modulus: long waves sink without end.
+
+    Whether a sum is found within the bound then depends on the rounding of a machine, so that
+    twenty neighbouring fluids are tried.
+    """
+    layer, refused = vc.Layer(4.19834e-4, vc.Material(vc.Elastic(1e6), 0.5)), 0
+    for change in np.linspace(-1e-4, 1e-4, 20):
+        fluid = vc.Material(vc.Maxwell(1e6, 2e6), 0.498605 + change)
+        try:
+            found = separated(vc.Layered([layer], base=fluid))
+        except ValueError as error:
+            assert "no short sum of terms comes close" in str(error)
+            refused += 1
+        else:
+            assert found.error <= WORST
+    assert refused > 0
