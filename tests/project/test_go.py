@@ -47,6 +47,7 @@ class Compilation:
 def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """Return `go` as a module that believes itself in an empty clone, and installs nothing."""
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    monkeypatch.delenv("VISCONTACT_CORE", raising=False)  # which leaves the core out
     loader = SourceFileLoader("go", str(ROOT / "go"))
     spec = importlib.util.spec_from_loader("go", loader)
     assert spec is not None
