@@ -25,18 +25,19 @@ struct Shape {
 
 template <class Number>
 Shape shape_of(const Array<Number> &array) {
-    return {static_cast<std::ptrdiff_t>(array.shape(0)), static_cast<std::ptrdiff_t>(array.shape(1))};
+    return {static_cast<std::ptrdiff_t>(array.shape(0)),
+            static_cast<std::ptrdiff_t>(array.shape(1))};
 }
 
 inline Shape shape_of(const viscontact::Plane &plane) { return {plane.rows(), plane.columns()}; }
 
 // Booleans are one byte each in NumPy.
 template <class Number>
-using Stored = std::conditional_t<std::is_same_v<std::remove_const_t<Number>, bool>, viscontact::Flag,
-                                  std::remove_const_t<Number>>;
+using Stored = std::conditional_t<std::is_same_v<std::remove_const_t<Number>, bool>,
+                                  viscontact::Flag, std::remove_const_t<Number>>;
 
-// The memory of an array of a shape; what is beyond it is not to be touched. Inputs may be read-only,
-// and are not written to.
+// The memory of an array of a shape; what is beyond it is not to be touched. Inputs may be
+// read-only, and are not written to.
 template <class Number>
 viscontact::Field<Stored<Number>> field(const Shape &shape, const Array<Number> &array) {
     const Shape own = shape_of(array);
@@ -45,7 +46,8 @@ viscontact::Field<Stored<Number>> field(const Shape &shape, const Array<Number> 
     if (own.columns > 1 && array.stride(1) != 1)
         throw std::invalid_argument("the numbers of a row must be contiguous");
     const void *first = array.data();
-    return {static_cast<Stored<Number> *>(const_cast<void *>(first)), own.rows, own.columns, array.stride(0)};
+    return {static_cast<Stored<Number> *>(const_cast<void *>(first)), own.rows, own.columns,
+            array.stride(0)};
 }
 
 template <class Number>

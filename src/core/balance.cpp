@@ -8,7 +8,8 @@ double imbalance(const Motion &sums, const Motion &targets, const Free &free, do
         std::max({std::abs(targets[0]), std::abs(sums[0]), std::numeric_limits<double>::min()});
     double error = 0;
     for (int k = 0; k < 3; ++k)
-        if (free[k]) error = std::max(error, std::abs(sums[k] - targets[k]) / (force * (k ? arm : 1.0)));
+        if (free[k])
+            error = std::max(error, std::abs(sums[k] - targets[k]) / (force * (k ? arm : 1.0)));
     return sums[0] == sums[0] ? error : NONE;
 }
 
@@ -49,10 +50,11 @@ void weigh_row(Weighed &found, const Plane &plane, const Motion &factor, const D
     plane.add_row(found.sums, sum, along, i);
     found.moments.add_row(sum, places, squares, plane.across_x[i]);
 }
+
 // Balances a pressure that is weighed; multiplies each of its rows by a plane once at least.
 template <class Weigh>
-bool balance_weighed(Weighed found, const Plane &plane, const Motion &targets, const Free &free, double cell_area,
-                     double arm, Weigh weigh) {
+bool balance_weighed(Weighed found, const Plane &plane, const Motion &targets, const Free &free,
+                     double cell_area, double arm, Weigh weigh) {
     for (int round = 0; round < 20; ++round) {
         Motion lacking, resultants;
         for (int k = 0; k < 3; ++k) lacking[k] = targets[k] / cell_area - found.sums[k];
@@ -70,18 +72,19 @@ bool balance_weighed(Weighed found, const Plane &plane, const Motion &targets, c
 }
 
 FOR_PROCESSORS
-void difference_row(const Doubles &ahead, const Doubles &pressure, double scale, const Singles &step,
-                    std::ptrdiff_t i) {
+void difference_row(const Doubles &ahead, const Doubles &pressure, double scale,
+                    const Singles &step, std::ptrdiff_t i) {
     const double *to = ahead.row(i), *from = pressure.row(i);
     float *out = step.row(i);
 #pragma omp simd
-    for (std::ptrdiff_t j = 0; j < step.columns; ++j) out[j] = static_cast<float>((to[j] - from[j]) * scale);
+    for (std::ptrdiff_t j = 0; j < step.columns; ++j)
+        out[j] = static_cast<float>((to[j] - from[j]) * scale);
 }
 
 // Steps on a row, and returns the least value.
 FOR_PROCESSORS
-double step_row(const Doubles &pressure, const Singles &direction, double length, const Doubles &ahead,
-                std::ptrdiff_t i) {
+double step_row(const Doubles &pressure, const Singles &direction, double length,
+                const Doubles &ahead, std::ptrdiff_t i) {
     const double *p = pressure.row(i);
     const float *d = direction.row(i);
     double *out = ahead.row(i), lowest = BEYOND;
@@ -113,8 +116,8 @@ bool balance(const Plane &plane, const Doubles &pressure, const Motion &targets,
 }
 
 bool trial(const Plane &plane, const Doubles &pressure, const Singles &direction, double length,
-           const Doubles &ahead, const Motion &targets, const Free &free, double cell_area, double arm,
-           double scale, const Singles &step) {
+           const Doubles &ahead, const Motion &targets, const Free &free, double cell_area,
+           double arm, double scale, const Singles &step) {
     const Weighed found = total_of(plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         Weighed here;
         double lowest = BEYOND;
@@ -146,11 +149,13 @@ bool trial(const Plane &plane, const Doubles &pressure, const Singles &direction
 void difference(const Plane &plane, const Doubles &ahead, const Doubles &pressure, double scale,
                 const Singles &step) {
     plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = begin; i < end; ++i) difference_row(ahead, pressure, scale, step, i);
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+            difference_row(ahead, pressure, scale, step, i);
     });
 }
-double move(const Plane &plane, const Doubles &pressure, const Doubles &displacement, const Singles &step,
-            const Singles &change, double length) {
+
+double move(const Plane &plane, const Doubles &pressure, const Doubles &displacement,
+            const Singles &step, const Singles &change, double length) {
     const auto least = plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         double lowest = BEYOND;
         for (std::ptrdiff_t i = begin; i < end; ++i) {

@@ -39,8 +39,8 @@ void level_row(const Plane &plane, const Motion &by, const Singles &vector, cons
 }
 
 FOR_PROCESSORS
-void correct_row(const Singles &found, const Singles &residual, const Singles &stiffness, float correction,
-                 float shift, std::ptrdiff_t i) {
+void correct_row(const Singles &found, const Singles &residual, const Singles &stiffness,
+                 float correction, float shift, std::ptrdiff_t i) {
     float *here = found.row(i);
     const float *gap = residual.row(i), *stiff = stiffness.row(i);
     const std::ptrdiff_t columns = found.columns;
@@ -65,9 +65,11 @@ std::array<double, 2> inner_row(const Singles &field, const Singles &first, cons
 }
 
 }  // namespace
-double direct(const Plane &plane, const Singles &found, const Singles &direction, const Singles &residual,
-              const Singles &last_residual, const Flags &active, const Singles &stiffness, double correction,
-              double shift, const Matrix &inverse, double last_slope, bool changed) {
+
+double direct(const Plane &plane, const Singles &found, const Singles &direction,
+              const Singles &residual, const Singles &last_residual, const Flags &active,
+              const Singles &stiffness, double correction, double shift, const Matrix &inverse,
+              double last_slope, bool changed) {
     const bool conjugates = last_slope > 0, projects_both = conjugates && changed;
     using Both = std::array<double, 6>;
     const Both both = added(plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -104,6 +106,7 @@ double direct(const Plane &plane, const Singles &found, const Singles &direction
     });
     return slopes[0];
 }
+
 std::array<double, 2> inner(const Plane &plane, const Singles &field, const Singles &first,
                             const Singles &second) {
     return added(plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {

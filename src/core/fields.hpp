@@ -33,14 +33,17 @@ constexpr std::ptrdiff_t SHARED_CELLS = 1 << 17;
 class Blocks {
   public:
     Blocks(std::ptrdiff_t rows, std::ptrdiff_t columns, int threads)
-        : rows_(rows), most_(std::max<std::ptrdiff_t>(1, BLOCK_CELLS / std::max<std::ptrdiff_t>(1, columns))) {
-        shares_ = rows * columns < SHARED_CELLS ? 1 : std::min<std::ptrdiff_t>(std::max(threads, 1), count());
+        : rows_(rows),
+          most_(std::max<std::ptrdiff_t>(1, BLOCK_CELLS / std::max<std::ptrdiff_t>(1, columns))) {
+        shares_ = rows * columns < SHARED_CELLS
+                      ? 1
+                      : std::min<std::ptrdiff_t>(std::max(threads, 1), count());
     }
 
     std::ptrdiff_t count() const { return (rows_ + most_ - 1) / most_; }
 
-    // Works on all blocks, by their number, first row and the row after their last one. The work does not
-    // throw. Where the system has no more threads, the caller does what is left.
+    // Works on all blocks, by their number, first row and the row after their last one. The work
+    // does not throw. Where the system has no more threads, the caller does what is left.
     template <class Work>
     void each(const Work &work) const {
         const auto share = [&](std::ptrdiff_t begin) {
@@ -63,13 +66,15 @@ class Blocks {
     std::ptrdiff_t rows_, most_, shares_;
 };
 
-// Results of work on blocks of rows, in their order, so that sums over them do not depend on the threads.
+// Results of work on blocks of rows, in their order, so that sums over them do not depend on the
+// threads.
 template <class Work>
 auto of_blocks(std::ptrdiff_t rows, std::ptrdiff_t columns, int threads, Work work) {
     using Result = decltype(work(std::ptrdiff_t{}, std::ptrdiff_t{}));
     const Blocks blocks(rows, columns, threads);
     if constexpr (std::is_void_v<Result>) {
-        blocks.each([&](std::ptrdiff_t, std::ptrdiff_t first, std::ptrdiff_t last) { work(first, last); });
+        blocks.each(
+            [&](std::ptrdiff_t, std::ptrdiff_t first, std::ptrdiff_t last) { work(first, last); });
     } else {
         static_assert(!std::is_same_v<Result, bool>, "threads would write to bits of one word");
         std::vector<Result> found(blocks.count());

@@ -26,9 +26,9 @@ struct ContactTrend {
     Field<Flag> left;
 };
 
-void follow_trends(const Field<double> &gap, const Field<double> &pressure, const Field<Flag> &in_contact,
-                   double error, double turns, const ContactTrend &before, const ContactTrend &after,
-                   int threads);
+void follow_trends(const Field<double> &gap, const Field<double> &pressure,
+                   const Field<Flag> &in_contact, double error, double turns,
+                   const ContactTrend &before, const ContactTrend &after, int threads);
 
 // A field with its mirror images before the first row, the first column, or both.
 template <class Number>

@@ -6,8 +6,8 @@ namespace {
 
 using viscontact::ContactTrend;
 using Trends = std::tuple<Array<double>, Array<bool>, Array<double>, Array<bool>, Array<bool>>;
-using GivenTrends =
-    std::tuple<Array<const double>, Array<const bool>, Array<const double>, Array<const bool>, Array<const bool>>;
+using GivenTrends = std::tuple<Array<const double>, Array<const bool>, Array<const double>,
+                               Array<const bool>, Array<const bool>>;
 
 template <class Given>
 ContactTrend trends(const Shape &shape, const Given &of) {
@@ -20,7 +20,9 @@ ContactTrend trends(const Shape &shape, const Given &of) {
 template <class Number>
 void unfold(Array<const Number> part, Array<Number> whole) {
     const Shape from = shape_of(part), to = shape_of(whole);
-    const auto fits = [](std::ptrdiff_t lines, std::ptrdiff_t all) { return all == lines || all == 2 * lines; };
+    const auto fits = [](std::ptrdiff_t lines, std::ptrdiff_t all) {
+        return all == lines || all == 2 * lines;
+    };
     if (!(fits(from.rows, to.rows) && fits(from.columns, to.columns)))
         throw std::invalid_argument("the whole field is as long as its part, or twice as long");
     viscontact::unfold(field(from, part), field(to, whole));
@@ -37,25 +39,30 @@ void define_history(nb::module_ &module) {
                    throw std::invalid_argument("each field has a weight");
                std::vector<const double *> given;
                for (const auto &each : fields) {
-                   if (each.size() != sum.size()) throw std::invalid_argument("fields of one size are added");
+                   if (each.size() != sum.size())
+                       throw std::invalid_argument("fields of one size are added");
                    given.push_back(each.data());
                }
-               viscontact::weighted_sum(sum.data(), static_cast<std::ptrdiff_t>(sum.size()), weights, given,
-                                        threads);
+               viscontact::weighted_sum(sum.data(), static_cast<std::ptrdiff_t>(sum.size()),
+                                        weights, given, threads);
            });
     define(module, "mean_change",
-           [](Array<const bool> where, Array<const double> late, std::optional<Array<const double>> early,
-              int threads) {
+           [](Array<const bool> where, Array<const double> late,
+              std::optional<Array<const double>> early, int threads) {
                const Shape shape = shape_of(where);
-               if (!early) return viscontact::mean_change(field(shape, where), field(shape, late), nullptr, threads);
+               if (!early)
+                   return viscontact::mean_change(field(shape, where), field(shape, late), nullptr,
+                                                  threads);
                const auto other = field(shape, *early);
-               return viscontact::mean_change(field(shape, where), field(shape, late), &other, threads);
+               return viscontact::mean_change(field(shape, where), field(shape, late), &other,
+                                              threads);
            });
     define(module, "follow_trends",
-           [](Array<const double> gap, Array<const double> pressure, Array<const bool> in_contact, double error,
-              double turns, GivenTrends before, Trends after, int threads) {
+           [](Array<const double> gap, Array<const double> pressure, Array<const bool> in_contact,
+              double error, double turns, GivenTrends before, Trends after, int threads) {
                const Shape shape = shape_of(gap);
-               viscontact::follow_trends(field(shape, gap), field(shape, pressure), field(shape, in_contact), error, turns,
+               viscontact::follow_trends(field(shape, gap), field(shape, pressure),
+                                         field(shape, in_contact), error, turns,
                                          trends(shape, before), trends(shape, after), threads);
            });
     define(module, "unfold", &unfold<double>);

@@ -28,6 +28,7 @@ struct Moments {
         n += other.n, x += other.x, y += other.y;
         xx += other.xx, xy += other.xy, yy += other.yy;
     }
+
     // A row at a place along x, by its own sums of weights times 1, y, yy.
     void add_row(double weight, double along_y, double squares, double place) {
         n += weight, x += weight * place, y += along_y;
@@ -43,19 +44,25 @@ inline void add(Motion &total, const Motion &other) {
 // that axis vanishes.
 class Plane {
   public:
-    std::vector<double> x, y;              // cell centres [m]
+    std::vector<double> x, y;                // cell centres [m]
     std::vector<double> across_x, across_y;  // the same in cells
     bool mirrored_x, mirrored_y;
     int threads;
 
-    Plane(std::vector<double> x_, std::vector<double> y_, double dx, double dy, bool mx, bool my, int threads_)
-        : x(std::move(x_)), y(std::move(y_)), mirrored_x(mx), mirrored_y(my), threads(threads_),
+    Plane(std::vector<double> x_, std::vector<double> y_, double dx, double dy, bool mx, bool my,
+          int threads_)
+        : x(std::move(x_)),
+          y(std::move(y_)),
+          mirrored_x(mx),
+          mirrored_y(my),
+          threads(threads_),
           unit_{1.0, 1 / dx, 1 / dy} {
         for (double each : x) across_x.push_back(each * unit_[1]);
         for (double each : y) across_y.push_back(each * unit_[2]);
     }
 
     std::ptrdiff_t rows() const { return static_cast<std::ptrdiff_t>(x.size()); }
+
     std::ptrdiff_t columns() const { return static_cast<std::ptrdiff_t>(y.size()); }
 
     template <class Work>

@@ -41,11 +41,12 @@ struct Opened {
 };
 
 template <class Gap>
-FOR_PROCESSORS
-void open_row(Opened &found, const Plane &plane, const Doubles &pressure, const Doubles &displacement,
-              const Doubles &open_gap, double compliance, const Motion &motion, double scale,
-              const Flags &contact, const Field<Gap> &gap, std::ptrdiff_t i) {
-    const double *p = pressure.row(i), *u = displacement.row(i), *open = open_gap.row(i), *y = plane.y.data();
+FOR_PROCESSORS void open_row(Opened &found, const Plane &plane, const Doubles &pressure,
+                             const Doubles &displacement, const Doubles &open_gap,
+                             double compliance, const Motion &motion, double scale,
+                             const Flags &contact, const Field<Gap> &gap, std::ptrdiff_t i) {
+    const double *p = pressure.row(i), *u = displacement.row(i), *open = open_gap.row(i),
+                 *y = plane.y.data();
     Flag *touches = contact.row(i);
     Gap *out = gap.row(i);
     const double level = motion[0] + motion[1] * plane.x[i], tilt = motion[2];
@@ -71,7 +72,8 @@ void open_row(Opened &found, const Plane &plane, const Doubles &pressure, const 
 
 // Takes a step on a row.
 FOR_PROCESSORS
-void take_row(const StepAhead &step, const Doubles &pressure, const Doubles &displacement, std::ptrdiff_t i) {
+void take_row(const StepAhead &step, const Doubles &pressure, const Doubles &displacement,
+              std::ptrdiff_t i) {
     double *p = pressure.row(i), *u = displacement.row(i);
     const double *to = step.ahead.row(i), length = std::min(step.part, 1.0) * step.unit;
     const float *by = step.step.row(i), *changed = step.change.row(i);
@@ -91,9 +93,8 @@ void take_row(const StepAhead &step, const Doubles &pressure, const Doubles &dis
 
 // Levels a row of gaps by a plane, and returns the largest gap under pressure or penetration.
 template <class Gap>
-FOR_PROCESSORS
-double fit_row(const Plane &plane, const Motion &by, const Flags &contact, const Field<Gap> &gap,
-               std::ptrdiff_t i) {
+FOR_PROCESSORS double fit_row(const Plane &plane, const Motion &by, const Flags &contact,
+                              const Field<Gap> &gap, std::ptrdiff_t i) {
     const Flag *touches = contact.row(i);
     Gap *here = gap.row(i);
     const double *y = plane.y.data();
@@ -128,8 +129,8 @@ Measured measure(const Plane &plane, const Doubles &pressure, const Doubles &dis
         Opened here;
         for (std::ptrdiff_t i = begin; i < end; ++i) {
             if (step) take_row(*step, pressure, displacement, i);
-            open_row(here, plane, pressure, displacement, open_gap, compliance, motion, 1 / unit, contact,
-                     gap, i);
+            open_row(here, plane, pressure, displacement, open_gap, compliance, motion, 1 / unit,
+                     contact, gap, i);
         }
         return here;
     }));
@@ -155,12 +156,12 @@ Measured measure(const Plane &plane, const Doubles &pressure, const Doubles &dis
     return found;
 }
 
-template Measured measure<double>(const Plane &, const Doubles &, const Doubles &, const Doubles &, double,
-                                  const Motion &, const Free &, double, const Flags &, const Doubles &,
-                                  const StepAhead *);
-template Measured measure<float>(const Plane &, const Doubles &, const Doubles &, const Doubles &, double,
-                                 const Motion &, const Free &, double, const Flags &, const Singles &,
-                                 const StepAhead *);
+template Measured measure<double>(const Plane &, const Doubles &, const Doubles &, const Doubles &,
+                                  double, const Motion &, const Free &, double, const Flags &,
+                                  const Doubles &, const StepAhead *);
+template Measured measure<float>(const Plane &, const Doubles &, const Doubles &, const Doubles &,
+                                 double, const Motion &, const Free &, double, const Flags &,
+                                 const Singles &, const StepAhead *);
 
 namespace {
 
@@ -196,13 +197,14 @@ Released release(const Plane &plane, const Flags &active, const Flags &last, con
     }));
     Released found{counted.released, counted.changed, {}};
     if (counted.released > 0) {
-        found.inverse = plane.inverse(total_of(plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-                                          Moments here;
-                                          for (std::ptrdiff_t i = begin; i < end; ++i)
-                                              add_marked(here, plane, active.row(i), i);
-                                          return here;
-                                      })),
-                                      free);
+        found.inverse =
+            plane.inverse(total_of(plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                              Moments here;
+                              for (std::ptrdiff_t i = begin; i < end; ++i)
+                                  add_marked(here, plane, active.row(i), i);
+                              return here;
+                          })),
+                          free);
     }
     return found;
 }
@@ -217,7 +219,8 @@ void follow(const Singles &stiffness, const Flags &active, const Flags &last,
             for (int down = -1; down <= 1; ++down)
                 for (int right = -1; right <= 1; ++right) {
                     const std::ptrdiff_t row = i + down, column = j + right;
-                    if (row < 0 || row >= active.rows || column < 0 || column >= active.columns) continue;
+                    if (row < 0 || row >= active.rows || column < 0 || column >= active.columns)
+                        continue;
                     stiffness.row(row)[column] += sign * near[3 * (down + 1) + right + 1];
                 }
         }

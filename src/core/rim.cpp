@@ -36,13 +36,15 @@ struct Interval {
 };
 
 double at_most(double value, double limit) { return value > limit ? limit : value; }
+
 double at_least(double value, double limit) { return value < limit ? limit : value; }
 
 double slope_of(double behind, double before, double far, double near) {
     return (behind - before) / (2 * (far - near));
 }
 
-void locate_by_gaps(Interval &here, const EdgeLaw &law, const Field<Flag> &contact, const Field<double> &gap) {
+void locate_by_gaps(Interval &here, const EdgeLaw &law, const Field<Flag> &contact,
+                    const Field<double> &gap) {
     const Cell second = here.outer.moved(here.outwards);
     double near = at_least(at(gap, here.outer, BEYOND), 0.0), far = at(gap, second, BEYOND);
     double farther = at(gap, second.moved(here.outwards), BEYOND);
@@ -63,7 +65,8 @@ void locate_by_gaps(Interval &here, const EdgeLaw &law, const Field<Flag> &conta
 
 // Where the pressure locates a receding rim.
 void locate_by_pressures(Interval &here, const EdgeLaw &law, const Recession &recession) {
-    if (!(at<Flag>(recession.opens, here.outer, 0) && at<Flag>(recession.falls, here.inner, 0))) return;
+    if (!(at<Flag>(recession.opens, here.outer, 0) && at<Flag>(recession.falls, here.inner, 0)))
+        return;
     const Cell second = here.inner.moved(here.outwards, -1);
     const auto pressure = [&](const Cell &cell) { return at(recession.pressure, cell, 0.0); };
     const double near = pressure(here.inner), far = pressure(second);
@@ -81,7 +84,8 @@ void locate_by_pressures(Interval &here, const EdgeLaw &law, const Recession &re
     here.located = distance, here.slope = slope;
 }
 
-// Crossing of a chord between the nearest crossings along the other axis; not a number without both.
+// Crossing of a chord between the nearest crossings along the other axis; not a number without
+// both.
 double chord(const Interval &here, const Field<Flag> &contact, const Rim &found) {
     const bool opens = here.slope > 0;
     const std::ptrdiff_t up = opens ? 1 : -1;
@@ -105,8 +109,12 @@ std::vector<Interval> changes(const Field<Flag> &contact) {
     const auto note = [&](int axis, std::ptrdiff_t i, std::ptrdiff_t j) {
         const Cell step = axis == 0 ? along_x : along_y, start{i, j}, end = start.moved(step);
         const bool begins_inside = contact.row(i)[j];
-        Interval here{axis, start, begins_inside ? start : end, begins_inside ? end : start,
-                      {0, 0}, axis == 0 ? along_y : along_x};
+        Interval here{axis,
+                      start,
+                      begins_inside ? start : end,
+                      begins_inside ? end : start,
+                      {0, 0},
+                      axis == 0 ? along_y : along_x};
         here.outwards = {here.outer.row - here.inner.row, here.outer.column - here.inner.column};
         found.push_back(here);
     };
@@ -145,7 +153,8 @@ double EdgeLaw::distance(double first, double second, double third) const {
 double EdgeLaw::offset(double slope) const {
     const double size = std::abs(slope);
     if (size >= slopes.back()) return offsets.back();
-    if (slopes.size() == 1 || !(size > slopes.front())) return std::isnan(size) ? size : offsets.front();
+    if (slopes.size() == 1 || !(size > slopes.front()))
+        return std::isnan(size) ? size : offsets.front();
     std::size_t k = 0;
     while (k + 2 < slopes.size() && size >= slopes[k + 1]) ++k;
     const double part = (offsets[k + 1] - offsets[k]) / (slopes[k + 1] - slopes[k]);
@@ -153,7 +162,8 @@ double EdgeLaw::offset(double slope) const {
 }
 
 void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
-                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends, const Rim &found) {
+                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
+                const Rim &found) {
     fill(found.along_x, NONE);
     fill(found.along_y, NONE);
     const auto &along = [&](int axis) { return axis == 0 ? found.along_x : found.along_y; };
@@ -194,9 +204,9 @@ double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segme
             const double left = crossing(along_x[j]), right = crossing(along_x[j + 1]);
             const double lower = crossing(lower_y[j]), upper = crossing(upper_y[j]);
             const double u = left + right, v = lower + upper;
-            // One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the
-            // two edges that leave their side. Three: the square without a triangle. Signed areas
-            // where a crossing lies beyond the square: their sum is that of the polygons.
+            // One corner inside: a triangle. Two neighbours: a trapezium between the crossings of
+            // the two edges that leave their side. Three: the square without a triangle. Signed
+            // areas where a crossing lies beyond the square: their sum is that of the polygons.
             if (corners == 1)
                 enclosed += u * v / 2 + segment;
             else if (corners == 3)
@@ -204,8 +214,9 @@ double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segme
             else if (near[j] != far[j + 1])
                 enclosed += (u + v) / 2;
             else  // opposite corners: two separate triangles
-                enclosed += (near[j] ? left * lower + right * upper : left * upper + right * lower) / 2 +
-                            2 * segment;
+                enclosed +=
+                    (near[j] ? left * lower + right * upper : left * upper + right * lower) / 2 +
+                    2 * segment;
         }
         enclosed += static_cast<double>(whole);
     }
@@ -216,13 +227,14 @@ namespace {
 
 // Extent along one axis, by flags and crossings at (line, place on it).
 template <class Contact, class Crossing>
-double extent(std::ptrdiff_t lines, std::ptrdiff_t places, std::ptrdiff_t first, std::ptrdiff_t last,
-              Contact contact, Crossing crossing) {
+double extent(std::ptrdiff_t lines, std::ptrdiff_t places, std::ptrdiff_t first,
+              std::ptrdiff_t last, Contact contact, Crossing crossing) {
     double begin = static_cast<double>(lines - 1), end = 0;
     // A crossing lies between half a cell inside and one outside of its inner centre: two lines
     // contain the extreme ones. A chord may cross its line elsewhere.
     const auto each = [&](std::ptrdiff_t line, auto note) {
-        for (std::ptrdiff_t at = std::max<std::ptrdiff_t>(line - 1, 0); at < std::min(line + 1, lines - 1); ++at)
+        for (std::ptrdiff_t at = std::max<std::ptrdiff_t>(line - 1, 0);
+             at < std::min(line + 1, lines - 1); ++at)
             for (std::ptrdiff_t place = 0; place < places; ++place)
                 if (std::abs(crossing(at, place)) <= 1) note(at, place, static_cast<double>(at));
     };
@@ -256,7 +268,8 @@ Extents extents(const Field<Flag> &contact, const Rim &rim) {
     Extents found{0, 0, 0, 0};
     const auto [first_row, last_row, first_column, last_column] = spans(contact);
     for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
-        found.rows += std::any_of(contact.row(i), contact.row(i) + contact.columns, [](Flag each) { return each; });
+        found.rows += std::any_of(contact.row(i), contact.row(i) + contact.columns,
+                                  [](Flag each) { return each; });
     for (std::ptrdiff_t j = 0; j < contact.columns; ++j)
         for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
             if (contact.row(i)[j]) {

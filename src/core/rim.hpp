@@ -1,5 +1,5 @@
-// Rim of a contact between cell centres: see rim_crossings.py and straight_edge.py, whose rules these
-// are, interval by interval.
+// Rim of a contact between cell centres: see rim_crossings.py and straight_edge.py, whose rules
+// these are, interval by interval.
 #pragma once
 
 #include <array>
@@ -29,15 +29,17 @@ struct Rim {
 };
 
 // Writes the crossings of the rim with the lines along x, shape (nx - 1, ny), and y, (nx, ny - 1).
-// Ends are distances to the body's outline, in fields of these shapes; laws are those along x and y.
+// Ends are distances to the body's outline, in fields of these shapes; laws are those along x and
+// y.
 void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
-                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends, const Rim &found);
+                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
+                const Rim &found);
 
 // Squares between four neighbouring centres that the polygons through the crossings enclose.
 double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment);
 
-// Extents of a contact between its farthest crossings along x and y, in cells, and the numbers of rows and
-// columns that it touches.
+// Extents of a contact between its farthest crossings along x and y, in cells, and the numbers of
+// rows and columns that it touches.
 struct Extents {
     double along_x, along_y;
     std::ptrdiff_t rows, columns;

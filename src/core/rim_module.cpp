@@ -8,8 +8,10 @@ using viscontact::EdgeLaw;
 
 // Crossings between the centres of a field.
 template <class Number>
-viscontact::Rim crossings(const Shape &shape, const Array<Number> &along_x, const Array<Number> &along_y) {
-    return {field({shape.rows - 1, shape.columns}, along_x), field({shape.rows, shape.columns - 1}, along_y)};
+viscontact::Rim crossings(const Shape &shape, const Array<Number> &along_x,
+                          const Array<Number> &along_y) {
+    return {field({shape.rows - 1, shape.columns}, along_x),
+            field({shape.rows, shape.columns - 1}, along_y)};
 }
 
 }  // namespace
@@ -20,20 +22,24 @@ void define_rim(nb::module_ &module) {
                             std::vector<double> slopes, std::vector<double> offsets) {
             if (slopes.empty() || slopes.size() != offsets.size())
                 throw std::invalid_argument("each slope has an offset");
-            new (self) EdgeLaw{threshold, std::get<0>(growth), std::get<1>(growth), slopes, offsets};
+            new (self)
+                EdgeLaw{threshold, std::get<0>(growth), std::get<1>(growth), slopes, offsets};
         });
     using GivenLines = std::tuple<Array<const double>, Array<const double>>;
-    using Receding = std::tuple<Array<const double>, Array<const bool>, Array<const bool>, Array<const bool>>;
+    using Receding =
+        std::tuple<Array<const double>, Array<const bool>, Array<const bool>, Array<const bool>>;
     define(module, "locate_rim",
-           [](Array<const bool> contact, Array<const double> gap, const EdgeLaw &gap_x, const EdgeLaw &gap_y,
-              const EdgeLaw &pressure_x, const EdgeLaw &pressure_y, std::optional<Receding> recession,
-              std::optional<GivenLines> ends, Array<double> along_x, Array<double> along_y) {
+           [](Array<const bool> contact, Array<const double> gap, const EdgeLaw &gap_x,
+              const EdgeLaw &gap_y, const EdgeLaw &pressure_x, const EdgeLaw &pressure_y,
+              std::optional<Receding> recession, std::optional<GivenLines> ends,
+              Array<double> along_x, Array<double> along_y) {
                const Shape shape = shape_of(contact);
                const EdgeLaw gaps[] = {gap_x, gap_y}, pressures[] = {pressure_x, pressure_y};
                viscontact::Recession receding;
                if (recession) {
                    const auto &[pressure, falls, opens, left] = *recession;
-                   receding = {field(shape, pressure), field(shape, falls), field(shape, opens), field(shape, left)};
+                   receding = {field(shape, pressure), field(shape, falls), field(shape, opens),
+                               field(shape, left)};
                }
                viscontact::Rim at_ends;
                if (ends) at_ends = crossings(shape, std::get<0>(*ends), std::get<1>(*ends));
@@ -45,8 +51,8 @@ void define_rim(nb::module_ &module) {
            [](Array<const bool> contact, Array<const double> along_x, Array<const double> along_y,
               double segment) {
                const Shape shape = shape_of(contact);
-               return viscontact::enclosed_squares(field(shape, contact), crossings(shape, along_x, along_y),
-                                                   segment);
+               return viscontact::enclosed_squares(field(shape, contact),
+                                                   crossings(shape, along_x, along_y), segment);
            });
     define(module, "rim_extents",
            [](Array<const bool> contact, Array<const double> along_x, Array<const double> along_y) {

@@ -38,17 +38,19 @@ Released release(const Plane &plane, const Flags &active, const Flags &last, con
                  const Free &free);
 
 // Adds the stiffness between changed cells and those around them, `near` in rows of three.
-void follow(const Singles &stiffness, const Flags &active, const Flags &last, const std::array<float, 9> &near);
+void follow(const Singles &stiffness, const Flags &active, const Flags &last,
+            const std::array<float, 9> &near);
 
-double direct(const Plane &plane, const Singles &found, const Singles &direction, const Singles &residual,
-              const Singles &last_residual, const Flags &active, const Singles &stiffness, double correction,
-              double shift, const Matrix &inverse, double last_slope, bool changed);
+double direct(const Plane &plane, const Singles &found, const Singles &direction,
+              const Singles &residual, const Singles &last_residual, const Flags &active,
+              const Singles &stiffness, double correction, double shift, const Matrix &inverse,
+              double last_slope, bool changed);
 
-// Writes the pressure after a step, cut off and balanced, to `ahead`, and the way to it to `step`; whether a
-// step led to tension and the cut pressure could be balanced.
+// Writes the pressure after a step, cut off and balanced, to `ahead`, and the way to it to `step`;
+// whether a step led to tension and the cut pressure could be balanced.
 bool trial(const Plane &plane, const Doubles &pressure, const Singles &direction, double length,
-           const Doubles &ahead, const Motion &targets, const Free &free, double cell_area, double arm,
-           double scale, const Singles &step);
+           const Doubles &ahead, const Motion &targets, const Free &free, double cell_area,
+           double arm, double scale, const Singles &step);
 
 bool balance(const Plane &plane, const Doubles &pressure, const Motion &targets, const Free &free,
              double cell_area, double arm);
@@ -61,8 +63,8 @@ void difference(const Plane &plane, const Doubles &ahead, const Doubles &pressur
 std::array<double, 2> inner(const Plane &plane, const Singles &field, const Singles &first,
                             const Singles &second);
 
-double move(const Plane &plane, const Doubles &pressure, const Doubles &displacement, const Singles &step,
-            const Singles &change, double length);
+double move(const Plane &plane, const Doubles &pressure, const Doubles &displacement,
+            const Singles &step, const Singles &change, double length);
 
 Motion sums(const Plane &plane, const Doubles &values);
 

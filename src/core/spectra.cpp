@@ -32,7 +32,8 @@ void filter(const Field<Number> &spectrum, const Field<Real> &symbol, int axis) 
         }
         const Real *factors = symbol.row(i);
         scale(row, factors, symbol.columns);
-        for (std::ptrdiff_t j = symbol.columns; j < spectrum.columns; ++j) row[j] *= factors[spectrum.columns - j];
+        for (std::ptrdiff_t j = symbol.columns; j < spectrum.columns; ++j)
+            row[j] *= factors[spectrum.columns - j];
     }
 }
 

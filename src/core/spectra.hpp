@@ -7,8 +7,8 @@
 
 namespace viscontact {
 
-// Multiplies a spectrum by a symbol with the first entries along one axis, 0 or 1, whose others are their
-// mirror images.
+// Multiplies a spectrum by a symbol with the first entries along one axis, 0 or 1, whose others are
+// their mirror images.
 template <class Number, class Real>
 void filter(const Field<Number> &spectrum, const Field<Real> &symbol, int axis);
 
