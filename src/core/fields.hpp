@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <system_error>
+#include <exception>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -55,7 +55,7 @@ class Blocks {
         std::ptrdiff_t begun = 1;
         try {
             for (; begun < shares_; ++begun) others.emplace_back(share, begun);
-        } catch (const std::system_error &) {
+        } catch (const std::exception &) {  // of the system or of memory
         }
         share(0);
         for (; begun < shares_; ++begun) share(begun);
