@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parent / "src" / "core"))
 import compile_core
 
 
-class CoreHook(BuildHookInterface):  # type: ignore[type-arg]
+class CoreHook(BuildHookInterface[Any]):
     """Compiles the core into wheels, and of an editable install into the checkout."""
 
     PLUGIN_NAME = "custom"

@@ -66,7 +66,7 @@ def is_off() -> bool:
 
 
 def options() -> list[str]:
-    """Return what CMake is told: which Python, what builds, and the processors of a Mac."""
+    """Return the options of CMake: which Python, what builds, and the processors of a Mac."""
     asked = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}"]
     ninja = program("ninja") if os.name != "nt" else None  # Visual Studio has its own
     if ninja:
