@@ -4,9 +4,9 @@ Names are loaded when first used, so that ``import viscontact`` stays fast. The 
 ``__init__.pyi`` lists them, both for this module and for type checkers and editors.
 """
 
-import lazy_loader as _lazy
+from viscontact.backend.lazy_names import attach_stub as _attach_stub
 
 __version__ = "0.1.0"
 
-__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = _attach_stub(__name__, __file__)
 __all__ += ["__version__"]

@@ -3,6 +3,6 @@
 Names are loaded at their first use, so that the shipped cases are listed fast.
 """
 
-import lazy_loader as _lazy
+from viscontact.backend.lazy_names import attach_stub as _attach_stub
 
-__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = _attach_stub(__name__, __file__)

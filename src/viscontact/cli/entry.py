@@ -73,10 +73,10 @@ def _exit_code(
     try:
         # An import that is interrupted may end in any error.
         with interruption.postponed(), quick_imports():
-            from viscontact.cli.shell import command_for
+            from viscontact.cli.shell import call_for
 
-            command = command_for(typed)
-        return int(command(typed, prog_name="viscontact", standalone_mode=False) or 0)
+            call = call_for(typed)
+        return int(call() or 0)
     except KeyboardInterrupt:
         return _interrupted(interruption)
     except CommandError as end:

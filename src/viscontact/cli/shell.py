@@ -1,17 +1,15 @@
-"""Typer application with all commands."""
+"""The commands, and the call that words at the command line stand for."""
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from functools import cache
-from typing import Annotated, Any
+from functools import cache, partial
+from typing import Any
 
-import typer
-
-from viscontact import __version__
 from viscontact.cli import commands
-from viscontact.cli.terminal.messages import put
+from viscontact.cli.plain_words import plain_arguments
 
 #: Names of the commands, each with an example; their functions are those of `cli.commands`.
 _COMMANDS = {
@@ -46,38 +44,26 @@ _COMMANDS = {
 }
 
 
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        put(f"viscontact {__version__}")
-        raise typer.Exit
+def call_for(words: Sequence[str] | None) -> Callable[[], Any]:
+    """Call that words stand for, by default those of the process."""
+    typed = list(sys.argv[1:] if words is None else words)
+    # Shells ask for completions by a variable.
+    if typed and typed[0] in _COMMANDS and "_VISCONTACT_COMPLETE" not in os.environ:
+        function: Callable[..., None] = getattr(commands, typed[0])
+        given = plain_arguments(function, typed[1:])
+        if given is not None:
+            return partial(function, **given)
+    command = command_for(words)
+    given_words = None if words is None else typed
+    return partial(command, given_words, prog_name="viscontact", standalone_mode=False)
 
 
-def viscontact(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "--version", help="Print the version.", callback=_print_version, is_eager=True
-        ),
-    ] = False,
-) -> None:
-    """Simulate the contact of a body with a viscoelastic half-space over time."""
-
-
-def application(names: Iterable[str] = tuple(_COMMANDS)) -> typer.Typer:
+def application(names: Iterable[str] = tuple(_COMMANDS)) -> Any:
     """Typer application with some of the commands, by default with all."""
-    made = typer.Typer(
-        name="viscontact",
-        no_args_is_help=True,
-        pretty_exceptions_enable=False,
-        rich_markup_mode="rich",
-        context_settings={"help_option_names": ["-h", "--help"]},
-        epilog="Start with: viscontact demo",
-    )
-    made.callback()(viscontact)
-    for name in names:
-        function: Callable[..., None] = getattr(commands, name)
-        made.command(epilog=f"Example:  {_COMMANDS[name]}")(function)
-    return made
+    # It takes a tenth of a second to import, and is for help, errors and what is unusual.
+    from viscontact.cli.typed_words import typer_application
+
+    return typer_application((name, _COMMANDS[name]) for name in names)
 
 
 def command_for(words: Sequence[str] | None) -> Any:
@@ -90,4 +76,6 @@ def command_for(words: Sequence[str] | None) -> Any:
 @cache
 def _click_command(name: str | None) -> Any:
     """Click command with one command, or with all of them."""
-    return typer.main.get_command(application() if name is None else application([name]))
+    from typer.main import get_command
+
+    return get_command(application() if name is None else application([name]))

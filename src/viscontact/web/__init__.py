@@ -3,7 +3,7 @@
 Only the command `serve` imports it.
 """
 
-import lazy_loader
+from viscontact.backend.lazy_names import attach_stub
 
 # Names of __init__.pyi, each loaded at its first use: the page is shown before.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -1,6 +1,6 @@
 """Indenter shapes: each gives its initial gap to a plane."""
 
-import lazy_loader
+from viscontact.backend.lazy_names import attach_stub
 
 # Names of __init__.pyi, each loaded at its first use: a case has few of all kinds.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -1,6 +1,6 @@
 """The commands: their arguments and options."""
 
-import lazy_loader
+from viscontact.backend.lazy_names import attach_stub
 
 # Functions of the commands, named in __init__.pyi: a command imports its own only.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

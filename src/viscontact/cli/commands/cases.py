@@ -11,8 +11,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
+from viscontact.cli.declared import argument, option
 from viscontact.cli.terminal.messages import put, refuse
 from viscontact.runs.processes.request import RunRequest
 
@@ -28,13 +27,13 @@ def schema() -> None:
 
 def example(
     name: Annotated[
-        str | None, typer.Argument(help="Name of the example; by default all are listed.")
+        str | None, argument(help="Name of the example; by default all are listed.")
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="File to write; stdout by default."),
+        option("-o", "--output", metavar="FILE", help="File to write; stdout by default."),
     ] = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace FILE.")] = False,
+    overwrite: Annotated[bool, option("--overwrite", help="Replace FILE.")] = False,
 ) -> None:
     """Copy a shipped case, to run or to change it."""
     if name is None:
@@ -48,7 +47,7 @@ def example(
 
 
 def demo(
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
+    quiet: Annotated[bool, option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
     """Press a crowned roller on PMMA for 1000 s and draw the results, in ./viscontact-demo."""
     from viscontact.cli.results.figure_files import plot_package

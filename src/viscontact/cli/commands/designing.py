@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands import study_options
 from viscontact.cli.commands.study_options import Instant
+from viscontact.cli.declared import option
 
 Changes = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--change",
         metavar="KEY=LOW:HIGH[:log]",
         help="Range of a parameter, e.g. indenter.radius='5 mm:50 mm:log', or its values, "
@@ -20,7 +19,7 @@ Changes = Annotated[
 ]
 Scenarios = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--over",
         metavar="KEY=VALUE,VALUE,...",
         help="Scenarios, of which the worst one counts, e.g. load.eccentricity_x='0 mm,5 mm'.",
@@ -28,7 +27,7 @@ Scenarios = Annotated[
 ]
 Scatter = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--scatter",
         metavar="KEY=LOW:HIGH",
         help="Scatter, of which the worst corner counts: values, e.g. "
@@ -38,7 +37,7 @@ Scatter = Annotated[
 ]
 Constraints = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--constraint",
         metavar="SCALAR<=VALUE",
         help="Bound that is to be kept at all instants, e.g. 'contact_length<=18mm', or with >=.",
@@ -46,14 +45,14 @@ Constraints = Annotated[
 ]
 ClearOfEnds = Annotated[
     bool,
-    typer.Option(
+    option(
         "--clear-of-ends",
         help="Leave out trials whose contact reaches a sharp end of the body at any instant.",
     ),
 ]
 Minimised = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--minimise",
         metavar="SCALAR|KEY",
         help="Scalar to make least, as peak_pressure, or a parameter of --change, as "
@@ -62,11 +61,11 @@ Minimised = Annotated[
 ]
 Maximised = Annotated[
     list[str] | None,
-    typer.Option("--maximise", metavar="SCALAR|KEY", help="Make largest, likewise."),
+    option("--maximise", metavar="SCALAR|KEY", help="Make largest, likewise."),
 ]
 Profile = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--profile",
         metavar="free[:KNOTS][:asymmetric]",
         help="Find the drop curve of a roller for the least peak pressure, in place of --change; "
@@ -75,7 +74,7 @@ Profile = Annotated[
 ]
 DropTolerance = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--drop-tolerance",
         metavar="LENGTH",
         help="Production tolerance of the drop, to either side, e.g. '1 um'; the worst profile "

@@ -5,17 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
+from viscontact.cli.declared import argument, option
 from viscontact.drawing.figures import compared_names, names_of
 
 Picture = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
+    option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
 ]
 FigureOrAnimation = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "-o",
         "--output",
         metavar="FIG.png",
@@ -24,18 +23,18 @@ FigureOrAnimation = Annotated[
 ]
 Instants = Annotated[
     list[str] | None,
-    typer.Option("--time", metavar="T", help="Instant such as '240 s'; may be repeated."),
+    option("--time", metavar="T", help="Instant such as '240 s'; may be repeated."),
 ]
 Speeds = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--speed", metavar="V", help="Speed of steady motion such as '0.5 m/s'; may be repeated."
     ),
 ]
 
 Width = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--width",
         metavar="WIDTH",
         help="Width of the figure: single (89 mm), double (183 mm), or a length such as '120 mm'.",
@@ -43,17 +42,15 @@ Width = Annotated[
 ]
 Along = Annotated[
     str | None,
-    typer.Option("--along", metavar="x|y", help="Direction of a pressure-profile's line."),
+    option("--along", metavar="x|y", help="Direction of a pressure-profile's line."),
 ]
 At = Annotated[
     str | None,
-    typer.Option(
-        "--at", metavar="PLACE", help="Position of the line on the other axis, such as '2 mm'."
-    ),
+    option("--at", metavar="PLACE", help="Position of the line on the other axis, such as '2 mm'."),
 ]
 Style = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--style",
         metavar="contours|colours",
         help="Pressure map with contour lines, or with a colour for each cell up to the peak; "
@@ -62,7 +59,7 @@ Style = Annotated[
 ]
 Scale = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--scale",
         metavar="all|each",
         help="Colours of one scale in all panels of a pressure map, or of one for each.",
@@ -70,13 +67,13 @@ Scale = Annotated[
 ]
 Over = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--over", metavar="time|force|area", help="Axis of a leak-rate; by default time or speed."
     ),
 ]
 Theory = Annotated[
     bool | None,
-    typer.Option(
+    option(
         "--theory",
         help="Persson's theory beside the area or friction of a rough contact on a periodic grid.",
     ),
@@ -85,11 +82,11 @@ Theory = Annotated[
 
 def plot(
     directory: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
+        Path, argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
     ],
     figure: Annotated[
         str,
-        typer.Argument(
+        argument(
             metavar="FIGURE",
             help=f"{', '.join(names_of('time', 'both'))}, or animation; of steady motion: "
             f"{', '.join(names_of('speed'))}; of a sweep: {', '.join(names_of('sweep'))}.",
@@ -107,11 +104,9 @@ def plot(
     over: Over = None,
     seconds: Annotated[
         float | None,
-        typer.Option("--seconds", help="Duration of an animation in seconds; 8 by default."),
+        option("--seconds", help="Duration of an animation in seconds; 8 by default."),
     ] = None,
-    fps: Annotated[
-        float | None, typer.Option("--fps", help="Frames per second; 15 by default.")
-    ] = None,
+    fps: Annotated[float | None, option("--fps", help="Frames per second; 15 by default.")] = None,
 ) -> None:
     """Draw a figure or an animation of a run, or the response of a sweep.
 
@@ -129,11 +124,11 @@ def plot(
 
 def compare(
     directories: Annotated[
-        list[Path], typer.Argument(metavar="DIR...", help="Runs, their .nc files, or a sweep.")
+        list[Path], argument(metavar="DIR...", help="Runs, their .nc files, or a sweep.")
     ],
     figure: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--figure",
             help=f"{', '.join(compared_names())}; by default history, in steady motion friction.",
         ),

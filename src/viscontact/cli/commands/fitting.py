@@ -6,11 +6,10 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands import study_options
 from viscontact.cli.commands.drawing import Width
 from viscontact.cli.commands.study_options import Settings
+from viscontact.cli.declared import argument, option
 
 
 class Answer(StrEnum):
@@ -22,7 +21,7 @@ class Answer(StrEnum):
 
 Tables = Annotated[
     list[Path],
-    typer.Argument(
+    argument(
         metavar="FILE.csv...",
         help="Measured values, CSV or spreadsheet (as tests.xlsx#Sheet2); the headings name the "
         "quantities and units. Or a force curve of an instrument (.jpk-force, .h5). Several "
@@ -32,7 +31,7 @@ Tables = Annotated[
 ]
 Test = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--data",
         metavar="TEST",
         help="Kind of test: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi); needed where "
@@ -41,24 +40,20 @@ Test = Annotated[
 ]
 PoissonRatio = Annotated[
     float | None,
-    typer.Option("--poisson-ratio", metavar="NU", help="Constant Poisson's ratio of the body."),
+    option("--poisson-ratio", metavar="NU", help="Constant Poisson's ratio of the body."),
 ]
 BulkModulus = Annotated[
     str | None,
-    typer.Option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
+    option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
 ]
 Terms = Annotated[
     int | None,
-    typer.Option(
-        "--terms", metavar="N", help="Largest number of terms; by default as few as needed."
-    ),
+    option("--terms", metavar="N", help="Largest number of terms; by default as few as needed."),
 ]
-Fluid = Annotated[
-    bool, typer.Option("--fluid", help="The material is a fluid: it flows at long times.")
-]
+Fluid = Annotated[bool, option("--fluid", help="The material is a fluid: it flows at long times.")]
 Weight = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--weight",
         metavar="COLUMN=W",
         help="Weight of storage or loss in the fit, e.g. storage=2; 1 for the other one. By "
@@ -67,7 +62,7 @@ Weight = Annotated[
 ]
 Stress = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--stress",
         metavar="S",
         help="Stress of a creep test given as strain, e.g. '5 MPa'; of several tests in the table, "
@@ -76,7 +71,7 @@ Stress = Annotated[
 ]
 Columns = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--columns",
         metavar="NAMES",
         help="Names of all columns of a table without a header, as 'time [s], force [nN]', with "
@@ -85,7 +80,7 @@ Columns = Annotated[
 ]
 Reference = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--reference",
         metavar="T",
         help="Temperature of the master curve, e.g. '23 degC'; by default the set nearest 20 degC, "
@@ -94,11 +89,11 @@ Reference = Annotated[
 ]
 Temperature = Annotated[
     str | None,
-    typer.Option("--temperature", metavar="T", help="Print the law at this temperature instead."),
+    option("--temperature", metavar="T", help="Print the law at this temperature instead."),
 ]
 Vertical = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--vertical",
         metavar="none|rubber|found",
         help="Vertical shift of several temperatures: none; as T times density; or found. By "
@@ -107,7 +102,7 @@ Vertical = Annotated[
 ]
 Expansion = Annotated[
     float | None,
-    typer.Option(
+    option(
         "--expansion",
         metavar="X",
         help="Thermal expansion in volume, for the density of --vertical rubber [1/K].",
@@ -115,7 +110,7 @@ Expansion = Annotated[
 ]
 Shift = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--shift",
         metavar="arrhenius|wlf|table",
         help="Rule of the shift of a test whose temperature varies; by default Arrhenius or WLF, "
@@ -124,7 +119,7 @@ Shift = Annotated[
 ]
 ThermalStrain = Annotated[
     Answer | None,
-    typer.Option(
+    option(
         "--thermal-strain",
         metavar="yes|no",
         help="Find thermal expansion in the strain of such a creep test, or take none; by default "
@@ -133,7 +128,7 @@ ThermalStrain = Annotated[
 ]
 Body = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--indenter",
         metavar="SHAPE",
         help="Indenter of an indentation record: 'sphere 5 um' (radius), 'paraboloid 40 nm' "
@@ -143,7 +138,7 @@ Body = Annotated[
 ]
 Thickness = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--thickness",
         metavar="H",
         help="Thickness of a film that is bonded to a rigid base, e.g. '20 um'; by default the "
@@ -152,7 +147,7 @@ Thickness = Annotated[
 ]
 SpringConstant = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--spring-constant",
         metavar="K",
         help="Spring constant of the cantilever, e.g. '0.1 N/m', for a force curve: columns time, "
@@ -161,7 +156,7 @@ SpringConstant = Annotated[
 ]
 Sensitivity = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--sensitivity",
         metavar="S",
         help="Deflection per signal of a force curve in volts, e.g. '50 nm/V'.",
@@ -169,7 +164,7 @@ Sensitivity = Annotated[
 ]
 Reach = Annotated[
     float | None,
-    typer.Option(
+    option(
         "--reach",
         metavar="PART",
         help="Part of the largest deflection that the first search of the contact point of a force "
@@ -178,7 +173,7 @@ Reach = Annotated[
 ]
 Until = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--until",
         metavar="PART",
         help="Part of an indentation that is fitted: up to the end of 'loading', of 'hold', to the "
@@ -188,7 +183,7 @@ Until = Annotated[
 ]
 LawName = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--law",
         metavar="LAW",
         help="Law for an indentation record: elastic, maxwell, zener, burgers, creep-series, "
@@ -197,7 +192,7 @@ LawName = Annotated[
 ]
 Adheres = Annotated[
     bool,
-    typer.Option(
+    option(
         "--adhesion",
         help="Fit the work of adhesion, its range, modulus and contact point to approach and "
         "retraction of a force curve: a sphere on an elastic body.",
@@ -205,7 +200,7 @@ Adheres = Annotated[
 ]
 ReferenceTime = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--reference-time",
         metavar="T",
         help="Time at which a power law states its compliance, e.g. '1 s', so that several "
@@ -214,7 +209,7 @@ ReferenceTime = Annotated[
 ]
 TablePath = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--table",
         metavar="OUT.csv",
         help="Table of the fits of several curves, with intervals and failures; by default "
@@ -223,80 +218,78 @@ TablePath = Annotated[
 ]
 Figure = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
+    option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
 ]
 Section = Annotated[
     Path | None,
-    typer.Option(
-        "--yaml", metavar="OUT.yaml", help="Also write the material section to this file."
-    ),
+    option("--yaml", metavar="OUT.yaml", help="Also write the material section to this file."),
 ]
 _BY_RUNS = "Any body, by runs of a case"
 CasePath = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--case",
         metavar="CASE.yaml",
         help="Case of the experiment; columns time, and force or approach or both.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 Changes = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--change",
         metavar="KEY=LOW:HIGH[:log]",
         help="Range of an unknown, e.g. material.shear_modulus='1 MPa:1 GPa:log'; repeated for "
         "each.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 Drive = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--drive",
         metavar="force|approach|case",
         help="What the runs prescribe: a column, or the load of the case. The other quantity is "
         "fitted.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 ContactPoint = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--contact-point",
         metavar="LOW:HIGH",
         help="Range of the reading of the approach at first touch, e.g. '-5 um:5 um'.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 MachineStiffness = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--machine-stiffness",
         metavar="LOW:HIGH[:log]",
         help="Range of the stiffness of the machine, e.g. '1 kN/mm:100 kN/mm:log'.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 Rows = Annotated[
     int | None,
-    typer.Option(
+    option(
         "--rows",
         min=5,
         metavar="N",
         help="Most rows of a record, and steps of its run; longer ones are averaged. By default "
         "60.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 Report = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--report",
         metavar="OUT.html",
         help="Also write a page with values, records and residuals.",
-        rich_help_panel=_BY_RUNS,
+        panel=_BY_RUNS,
     ),
 ]
 Runs = Annotated[int | None, study_options.runs("Most runs.", _BY_RUNS)]

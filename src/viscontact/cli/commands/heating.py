@@ -5,21 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands.drawing import Picture
 from viscontact.cli.commands.showing import RunDirectory
+from viscontact.cli.declared import option
 
 Cooling = Annotated[
     str,
-    typer.Option("--cooling", metavar="H", help="Heat transfer coefficient, e.g. '10 W/m2/K'."),
+    option("--cooling", metavar="H", help="Heat transfer coefficient, e.g. '10 W/m2/K'."),
 ]
 Ambient = Annotated[
-    str, typer.Option("--ambient", metavar="T", help="Temperature of the air, e.g. '23 degC'.")
+    str, option("--ambient", metavar="T", help="Temperature of the air, e.g. '23 degC'.")
 ]
 Area = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--area",
         metavar="A",
         help="Cooled area, e.g. '0.1 m2'; by default circumference times length of a covered roll.",
@@ -27,13 +26,13 @@ Area = Annotated[
 ]
 Thickness = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--thickness", metavar="T", help="Of the cover, e.g. '8 mm'; by default that of the case."
     ),
 ]
 Conductivity = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--conductivity",
         metavar="K",
         help="Thermal conductivity, e.g. '0.2 W/m/K', for the temperature through the cover.",
@@ -41,7 +40,7 @@ Conductivity = Annotated[
 ]
 Core = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--core-temperature",
         metavar="T",
         help="Temperature below the cover, e.g. '40 degC'; by default the core is insulated.",
@@ -49,22 +48,20 @@ Core = Annotated[
 ]
 Capacity = Annotated[
     str | None,
-    typer.Option(
-        "--heat-capacity", metavar="C", help="E.g. '1800 J/kg/K', for the heating over time."
-    ),
+    option("--heat-capacity", metavar="C", help="E.g. '1800 J/kg/K', for the heating over time."),
 ]
 Density = Annotated[
     str | None,
-    typer.Option("--density", metavar="RHO", help="E.g. '1150 kg/m3', for the heating over time."),
+    option("--density", metavar="RHO", help="E.g. '1150 kg/m3', for the heating over time."),
 ]
 Speeds = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--speed", metavar="V", help="Speed such as '0.5 m/s'; repeated; by default those of DIR."
     ),
 ]
 Report = Annotated[
-    Path | None, typer.Option("--report", metavar="PAGE.html", help="Write a report with figures.")
+    Path | None, option("--report", metavar="PAGE.html", help="Write a report with figures.")
 ]
 
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from viscontact import __version__
+from viscontact.cli.declared import option
 from viscontact.cli.terminal.messages import put
 
 
@@ -49,7 +48,7 @@ def doctor() -> None:
 
 
 def cite(
-    bibtex: Annotated[bool, typer.Option("--bibtex", help="As BibTeX.")] = False,
+    bibtex: Annotated[bool, option("--bibtex", help="As BibTeX.")] = False,
 ) -> None:
     """Print how to cite the program and the paper on which it is based."""
     from viscontact.results import citation

@@ -5,25 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands.showing import RunDirectory
+from viscontact.cli.declared import option
 
 Viscosity = Annotated[
     str | None,
-    typer.Option("--viscosity", metavar="ETA", help="Of the fluid, e.g. '1 mPa s'."),
+    option("--viscosity", metavar="ETA", help="Of the fluid, e.g. '1 mPa s'."),
 ]
 Difference = Annotated[
     str | None,
-    typer.Option("--pressure-difference", metavar="DP", help="Across the seal, e.g. '1 bar'."),
+    option("--pressure-difference", metavar="DP", help="Across the seal, e.g. '1 bar'."),
 ]
 Along = Annotated[
     str | None,
-    typer.Option("--along", metavar="x|y|both", help="Direction of the flow, by default x."),
+    option("--along", metavar="x|y|both", help="Direction of the flow, by default x."),
 ]
 Ends = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--ends",
         metavar="period|pressure",
         help="By default the period, if the grid has one along the flow.",
@@ -31,19 +30,19 @@ Ends = Annotated[
 ]
 Length = Annotated[
     str | None,
-    typer.Option("--length", metavar="L", help="Of the seal along the flow, e.g. '2 mm'."),
+    option("--length", metavar="L", help="Of the seal along the flow, e.g. '2 mm'."),
 ]
 Width = Annotated[
     str | None,
-    typer.Option("--width", metavar="W", help="Of the seal across the flow, e.g. '300 mm'."),
+    option("--width", metavar="W", help="Of the seal across the flow, e.g. '300 mm'."),
 ]
 Gas = Annotated[
     str | None,
-    typer.Option("--gas", metavar="P", help="Absolute pressure at the outlet of a gas: '1 bar'."),
+    option("--gas", metavar="P", help="Absolute pressure at the outlet of a gas: '1 bar'."),
 ]
 Written = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FILE", help="Table (.csv) or figure (.png, .pdf)."),
+    option("-o", "--output", metavar="FILE", help="Table (.csv) or figure (.png, .pdf)."),
 ]
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from viscontact.cli.commands.drawing import Width
+from viscontact.cli.declared import argument, option
 from viscontact.cli.terminal.messages import refuse
 
 if TYPE_CHECKING:  # heavy, and only to name its type
@@ -15,7 +14,7 @@ if TYPE_CHECKING:  # heavy, and only to name its type
 
 Which = Annotated[
     str | None,
-    typer.Argument(
+    argument(
         metavar="[NAME|FILE]",
         help="A shipped material, a case file, a measured table, or a card of Abaqus, Ansys or "
         "LS-DYNA; by default the shipped materials are listed.",
@@ -23,7 +22,7 @@ Which = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "-o",
         "--output",
         metavar="FILE",
@@ -32,13 +31,11 @@ Output = Annotated[
 ]
 Form = Annotated[
     str | None,
-    typer.Option(
-        "--to", metavar="FORM", help="Write the material in this form: abaqus, ansys or csv."
-    ),
+    option("--to", metavar="FORM", help="Write the material in this form: abaqus, ansys or csv."),
 ]
 Test = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--data",
         metavar="TEST",
         help="Kind of test of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi); "
@@ -47,17 +44,17 @@ Test = Annotated[
 ]
 PoissonRatio = Annotated[
     float | None,
-    typer.Option(
+    option(
         "--poisson-ratio", metavar="NU", help="Constant Poisson's ratio, for a table or a card."
     ),
 ]
 BulkModulus = Annotated[
     str | None,
-    typer.Option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
+    option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
 ]
 Stress = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--stress",
         metavar="S",
         help="Stress of a creep test given as strain, e.g. '5 MPa'; of several tests in the table, "
@@ -66,7 +63,7 @@ Stress = Annotated[
 ]
 Columns = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--columns",
         metavar="NAMES",
         help="Names of all columns of a table without a header, as 'time [s], G [MPa]', with "
@@ -74,23 +71,21 @@ Columns = Annotated[
     ),
 ]
 SetNumber = Annotated[
-    float | None, typer.Option("--set", metavar="N", help="Number of the set in a table.")
+    float | None, option("--set", metavar="N", help="Number of the set in a table.")
 ]
 ModulusUnit = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--modulus-unit", metavar="UNIT", help="Unit of a card's moduli; MPa by default with --to."
     ),
 ]
 TimeUnit = Annotated[
     str | None,
-    typer.Option(
-        "--time-unit", metavar="UNIT", help="Unit of a card's times; s by default with --to."
-    ),
+    option("--time-unit", metavar="UNIT", help="Unit of a card's times; s by default with --to."),
 ]
 TemperatureUnit = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--temperature-unit",
         metavar="UNIT",
         help="Unit of the temperatures in a card's shift: degC or K.",
@@ -98,7 +93,7 @@ TemperatureUnit = Annotated[
 ]
 Temperature = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--temperature",
         metavar="T",
         help="Show or write the law at this temperature, e.g. '40 degC', by its shift.",
@@ -106,7 +101,7 @@ Temperature = Annotated[
 ]
 Name = Annotated[
     str | None,
-    typer.Option("--name", metavar="NAME", help="Name or number of a material in a card."),
+    option("--name", metavar="NAME", help="Name or number of a material in a card."),
 ]
 
 

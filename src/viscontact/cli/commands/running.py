@@ -6,8 +6,6 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands.drawing import Width
 from viscontact.cli.commands.study_options import (
     CaseFile,
@@ -18,6 +16,7 @@ from viscontact.cli.commands.study_options import (
     Scheduler,
     Settings,
 )
+from viscontact.cli.declared import argument, option
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.log import logged
@@ -32,12 +31,10 @@ class Method(StrEnum):
     LATIN_HYPERCUBE = "latin-hypercube"
 
 
-CaseFiles = Annotated[
-    list[Path], typer.Argument(metavar="CASE.yaml...", help="Case file, or several.")
-]
+CaseFiles = Annotated[list[Path], argument(metavar="CASE.yaml...", help="Case file, or several.")]
 Output = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "-o",
         "--output",
         metavar="DIR",
@@ -47,7 +44,7 @@ Output = Annotated[
 ]
 Varied = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--vary",
         metavar="KEY=VALUE,VALUE,...",
         help="One run for each value, e.g. load.force=5kN,10kN; if repeated, one for each "
@@ -55,11 +52,11 @@ Varied = Annotated[
     ),
 ]
 Zipped = Annotated[
-    bool, typer.Option("--zip", help="Pair the values of several --vary, in place of combinations.")
+    bool, option("--zip", help="Pair the values of several --vary, in place of combinations.")
 ]
 PlanTable = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--table",
         metavar="FILE.csv",
         help="One run for each row, CSV or spreadsheet; the headings are keys with units, e.g. "
@@ -68,13 +65,11 @@ PlanTable = Annotated[
 ]
 Sample = Annotated[
     int | None,
-    typer.Option(
-        "--sample", min=1, metavar="N", help="N runs at points that fill the ranges evenly."
-    ),
+    option("--sample", min=1, metavar="N", help="N runs at points that fill the ranges evenly."),
 ]
 Ranges = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--range",
         metavar="KEY=LOW:HIGH[:log]",
         help="Range of a key for --sample, e.g. load.force='5 kN:20 kN:log'; if repeated, a range "
@@ -83,15 +78,15 @@ Ranges = Annotated[
 ]
 Seed = Annotated[
     int | None,
-    typer.Option("--seed", min=0, metavar="S", help="Seed of --sample; 0 if not given."),
+    option("--seed", min=0, metavar="S", help="Seed of --sample; 0 if not given."),
 ]
 SamplingMethod = Annotated[
     Method | None,
-    typer.Option("--method", help="Points of --sample: a scrambled Sobol sequence if not given."),
+    option("--method", help="Points of --sample: a scrambled Sobol sequence if not given."),
 ]
 Array = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--array",
         metavar="FILE.sbatch",
         help="Start nothing, but write a job array for SLURM (FILE.sbatch) or PBS (FILE.pbs); -j "
@@ -100,7 +95,7 @@ Array = Annotated[
 ]
 TaskNumber = Annotated[
     int | None,
-    typer.Option(
+    option(
         "--task",
         metavar="N",
         help="Compute run N, from 0, of a manifest: run --task N DIR/runs.jsonl.",
@@ -108,7 +103,7 @@ TaskNumber = Annotated[
 ]
 Verbose = Annotated[
     int,
-    typer.Option(
+    option(
         "--verbose",
         "-v",
         count=True,
@@ -116,7 +111,7 @@ Verbose = Annotated[
         help="Print the choice of the grid and other steps of the work; -vv prints each time step.",
     ),
 ]
-Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourier transform.")]
+Threads = Annotated[int, option(min=1, help="Number of threads of a Fourier transform.")]
 
 
 def run(
@@ -183,11 +178,9 @@ def check(
     case: CaseFile,
     figure: Annotated[
         Path | None,
-        typer.Argument(
-            metavar="FIG.png", help="With --plot: the figure; by default CASE-indenter.png."
-        ),
+        argument(metavar="FIG.png", help="With --plot: the figure; by default CASE-indenter.png."),
     ] = None,
-    plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter as well.")] = False,
+    plot: Annotated[bool, option("--plot", help="Draw the indenter as well.")] = False,
     width: Width = None,
     settings: Settings = None,
     verbose: Verbose = 0,

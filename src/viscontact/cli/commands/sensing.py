@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands.study_options import Instant, study
+from viscontact.cli.declared import option
 
 Outputs = Annotated[
     str,
-    typer.Option("--of", metavar="SCALAR,...", help="Outputs, e.g. peak_pressure,approach."),
+    option("--of", metavar="SCALAR,...", help="Outputs, e.g. peak_pressure,approach."),
 ]
 Inputs = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--change",
         metavar="KEY",
         help="Input, e.g. indenter.radius; repeated for each. By default all numbers of bodies, "
@@ -23,7 +22,7 @@ Inputs = Annotated[
 ]
 Scatter = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--scatter",
         metavar="KEY=LOW:HIGH[:log|:normal]",
         help="Input that scatters between two bounds (normal: 95 % of it), e.g. "
@@ -33,15 +32,15 @@ Scatter = Annotated[
 ]
 Samples = Annotated[
     int,
-    typer.Option(
+    option(
         "--samples",
         metavar="N",
         help="Number of samples, a power of two; with d inputs they take N (d + 2) runs.",
     ),
 ]
-Seed = Annotated[int, typer.Option("--seed", metavar="S", help="Seed of the samples.")]
+Seed = Annotated[int, option("--seed", metavar="S", help="Seed of the samples.")]
 Step = Annotated[
-    float, typer.Option("--step", metavar="PART", help="Relative step of an input, up to 0.5.")
+    float, option("--step", metavar="PART", help="Relative step of an input, up to 0.5.")
 ]
 
 

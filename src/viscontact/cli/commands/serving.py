@@ -10,8 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
-import typer
-
+from viscontact.cli.declared import option
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import put, refuse, say
 
@@ -25,7 +24,7 @@ _NEEDED = ("fastapi", "starlette", "uvicorn", "h11", "anyio", "matplotlib", "plo
 def serve(
     port: Annotated[
         int | None,
-        typer.Option(
+        option(
             "--port",
             metavar="N",
             min=0,
@@ -35,7 +34,7 @@ def serve(
     ] = None,
     directory: Annotated[
         Path | None,
-        typer.Option(
+        option(
             "--dir",
             metavar="DIR",
             help="Directory of runs and files; by default in your folder for application data.",
@@ -43,14 +42,14 @@ def serve(
     ] = None,
     jobs: Annotated[
         int | None,
-        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
+        option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
     ] = None,
     browser: Annotated[
-        bool, typer.Option("--open/--no-open", help="Open the page in the browser.")
+        bool, option("--open/--no-open", help="Open the page in the browser.")
     ] = True,
     no_token: Annotated[
         bool,
-        typer.Option(
+        option(
             "--no-token",
             help="Ask for no token: every user and program of this machine can then see, change "
             "and delete runs and files.",

@@ -5,22 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
+from viscontact.cli.declared import argument, option
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.messages import put
 
-RunDirectory = Annotated[
-    Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
-]
+RunDirectory = Annotated[Path, argument(metavar="DIR", help="Run directory, or its .nc file.")]
 
 
 def show(
     directory: RunDirectory,
-    everything: Annotated[bool, typer.Option("--all", help="Print every instant.")] = False,
-    errors: Annotated[
-        bool, typer.Option("--errors", help="Print the error below each number.")
-    ] = False,
+    everything: Annotated[bool, option("--all", help="Print every instant.")] = False,
+    errors: Annotated[bool, option("--errors", help="Print the error below each number.")] = False,
 ) -> None:
     """Print the history of a run as a table."""
     with quick_imports():
@@ -35,7 +30,7 @@ def export(
     directory: RunDirectory,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
             *("-o", "--output"),
             metavar="FILE.csv",
             help="History as .csv or .xlsx, by default CSV on stdout; stored fields as .pvd "
@@ -44,7 +39,7 @@ def export(
     ] = None,
     point: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--point",
             metavar="X,Y",
             help="Add the pressure at a point, e.g. '1 mm,0 mm', at the stored instants; repeated.",
@@ -62,11 +57,11 @@ def export(
 
 def report(
     directory: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
+        Path, argument(metavar="DIR", help="Run directory, its .nc file, or a sweep.")
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
             *("-o", "--output"),
             metavar="OUT.html",
             help="Page, or a PDF by its suffix; by default report.html in DIR.",
@@ -81,11 +76,11 @@ def report(
 
 def verify(
     fast: Annotated[
-        bool, typer.Option("--fast", help="Coarse meshes only: half a minute instead of minutes.")
+        bool, option("--fast", help="Coarse meshes only: half a minute instead of minutes.")
     ] = False,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE.md", help="Write the table: .md or .csv."),
+        option("-o", "--output", metavar="FILE.md", help="Write the table: .md or .csv."),
     ] = None,
 ) -> None:
     """Compare with exact solutions: case, reference, ours, error, observed order."""

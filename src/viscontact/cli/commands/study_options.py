@@ -9,19 +9,19 @@ from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from viscontact.cli.declared import argument, option
 
-CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="Case file.")]
+CaseFile = Annotated[Path, argument(metavar="CASE.yaml", help="Case file.")]
 Settings = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
+    option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
 ]
 StudyDirectory = Annotated[
-    Path, typer.Option("-o", "--output", metavar="DIR", help="Directory of the study.")
+    Path, option("-o", "--output", metavar="DIR", help="Directory of the study.")
 ]
 Instant = Annotated[
     str,
-    typer.Option(
+    option(
         "--at",
         metavar="worst|end|TIME|SPEED",
         help="Instant of the scalars: their worst value, the last one, or a time; in steady motion "
@@ -33,7 +33,7 @@ Instant = Annotated[
 def jobs(panel: str | None = None) -> Any:
     """Option of the number of parallel runs, in a panel of the help."""
     words = "Number of runs at the same time; by default that of the cores."
-    return typer.Option("-j", "--jobs", min=1, metavar="N", help=words, rich_help_panel=panel)
+    return option("-j", "--jobs", min=1, metavar="N", help=words, panel=panel)
 
 
 def scheduler(panel: str | None = None) -> Any:
@@ -43,27 +43,27 @@ def scheduler(panel: str | None = None) -> Any:
         "starts -j N workers here."
     )
     where = "ADDRESS|FILE|local"
-    return typer.Option("--scheduler", metavar=where, help=words, rich_help_panel=panel)
+    return option("--scheduler", metavar=where, help=words, panel=panel)
 
 
 def runs(words: str, panel: str | None = None) -> Any:
     """Option of the budget of runs."""
-    return typer.Option("--runs", min=1, metavar="N", help=words, rich_help_panel=panel)
+    return option("--runs", min=1, metavar="N", help=words, panel=panel)
 
 
 def resume(words: str = "Continue what DIR holds.", panel: str | None = None) -> Any:
     """Option to continue."""
-    return typer.Option("--resume", help=words, rich_help_panel=panel)
+    return option("--resume", help=words, panel=panel)
 
 
 def overwrite(words: str, panel: str | None = None) -> Any:
     """Option to begin again."""
-    return typer.Option("--overwrite", help=words, rich_help_panel=panel)
+    return option("--overwrite", help=words, panel=panel)
 
 
 def quiet(words: str = "Print the result only.", panel: str | None = None) -> Any:
     """Option without messages."""
-    return typer.Option("--quiet", "-q", help=words, rich_help_panel=panel)
+    return option("--quiet", "-q", help=words, panel=panel)
 
 
 Overwrite = Annotated[bool, overwrite("Replace the result that DIR holds.")]

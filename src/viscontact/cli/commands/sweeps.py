@@ -5,21 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from viscontact.cli.commands.study_options import QuietRun
+from viscontact.cli.declared import argument, option
 
 SweepDirectory = Annotated[
-    Path, typer.Argument(metavar="DIR", help="Directory of a sweep, which holds runs.jsonl.")
+    Path, argument(metavar="DIR", help="Directory of a sweep, which holds runs.jsonl.")
 ]
 
 
 def status(
     directory: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Directory of a sweep, or of a single run.")
+        Path, argument(metavar="DIR", help="Directory of a sweep, or of a single run.")
     ],
     watch: Annotated[
-        bool, typer.Option("--watch", help="Renew the lines until all runs have ended.")
+        bool, option("--watch", help="Renew the lines until all runs have ended.")
     ] = False,
 ) -> None:
     """Print how many runs of a sweep are done, running, waiting, stopped or failed."""
@@ -32,7 +31,7 @@ def collect(
     directory: SweepDirectory,
     output: Annotated[
         Path,
-        typer.Option(
+        option(
             "-o",
             "--output",
             metavar="FILE.nc",
@@ -41,7 +40,7 @@ def collect(
         ),
     ],
     fields: Annotated[
-        bool, typer.Option("--fields", help="Write the fields, too, if all runs have one grid.")
+        bool, option("--fields", help="Write the fields, too, if all runs have one grid.")
     ] = False,
     quiet: QuietRun = False,
 ) -> None:

@@ -5,44 +5,44 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from viscontact.cli.declared import argument, option
 
 SurfaceFile = Annotated[
-    Path, typer.Argument(metavar="SURFACE", help="Height map, in any format that a case takes.")
+    Path, argument(metavar="SURFACE", help="Height map, in any format that a case takes.")
 ]
 Body = Annotated[
     str,
-    typer.Option(
+    option(
         "--material", metavar="NAME|FILE", help="A shipped material, or a file of one (a case)."
     ),
 ]
 Pressures = Annotated[
     list[str],
-    typer.Option("--pressure", metavar="P", help="Nominal pressure, e.g. '0.3 MPa'; repeated."),
+    option("--pressure", metavar="P", help="Nominal pressure, e.g. '0.3 MPa'; repeated."),
 ]
 Held = Annotated[
     str | None,
-    typer.Option("--time", metavar="T", help="For which the pressure is held, e.g. '1 h'."),
+    option("--time", metavar="T", help="For which the pressure is held, e.g. '1 h'."),
 ]
 Speeds = Annotated[
     list[str] | None,
-    typer.Option("--speed", metavar="V", help="Sliding speed, e.g. '1 mm/s'; repeated."),
+    option("--speed", metavar="V", help="Sliding speed, e.g. '1 mm/s'; repeated."),
 ]
-Along = Annotated[str, typer.Option("--along", metavar="x|y", help="Direction of the sliding.")]
+Along = Annotated[str, option("--along", metavar="x|y", help="Direction of the sliding.")]
 Spacing = Annotated[
     str | None,
-    typer.Option("--spacing", metavar="D", help="Of the points, if the file does not state it."),
+    option("--spacing", metavar="D", help="Of the points, if the file does not state it."),
 ]
 HeightUnit = Annotated[
     str | None,
-    typer.Option("--height-unit", metavar="U", help="Of the heights, if the file has none."),
+    option("--height-unit", metavar="U", help="Of the heights, if the file has none."),
 ]
 Periodic = Annotated[
-    bool, typer.Option("--periodic", help="The map repeats itself: no window is needed.")
+    bool, option("--periodic", help="The map repeats itself: no window is needed.")
 ]
 Picture = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIGURE", help="Figure over speed (.png, .pdf, .svg)."),
+    option("-o", "--output", metavar="FIGURE", help="Figure over speed (.png, .pdf, .svg)."),
 ]
 
 

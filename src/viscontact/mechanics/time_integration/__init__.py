@@ -5,7 +5,7 @@ integral u(t) = ∫ J(t - t') dq(t') of the unit displacement q = K p, which the
 computes anyway: the load history costs no convolution in space.
 """
 
-import lazy_loader
+from viscontact.backend.lazy_names import attach_stub
 
 # Names of __init__.pyi, each loaded at its first use: few runs need all of them.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
