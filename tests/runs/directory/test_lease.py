@@ -14,7 +14,6 @@ import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 import xarray as xr
@@ -96,13 +95,6 @@ def test_directory_whose_locks_fail_or_exclude_no_other_is_leased(
     assert names(tmp_path) == []
 
 
-class Mount(NamedTuple):
-    """A mounted file system as psutil reports it."""
-
-    mountpoint: str
-    fstype: str
-
-
 @pytest.mark.parametrize(
     ("mounts", "expected"),
     [
@@ -118,8 +110,7 @@ class Mount(NamedTuple):
 def test_kind_of_a_file_system_is_that_of_the_deepest_mount(
     mounts: list[tuple[str, str]], expected: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = [Mount(*mount) for mount in mounts]
-    monkeypatch.setattr("psutil.disk_partitions", lambda **_: found)
+    monkeypatch.setattr("viscontact.runs.directory.lock_probe.mounted", lambda: mounts)
     assert file_system(Path("/scratch/runs/roller")) == expected
 
 

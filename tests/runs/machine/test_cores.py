@@ -23,7 +23,7 @@ BOUND = 16
 @pytest.fixture(autouse=True)
 def sixteen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A process that is bound to 16 cores."""
-    monkeypatch.setattr(cores, "_bound_cores", lambda: BOUND)
+    monkeypatch.setattr(cores, "bound_cores", lambda: BOUND)
 
 
 #: Group, mounts and files of a process, and its cores, from the kernel's documentation:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import psutil
 import pytest
@@ -17,16 +16,10 @@ from viscontact.runs.machine.memory import available_memory
 FREE = 64e9
 
 
-class Free(NamedTuple):
-    """Memory as psutil reports it."""
-
-    available: int
-
-
 @pytest.fixture(autouse=True)
 def machine(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with 64 GB of free memory."""
-    monkeypatch.setattr(psutil, "virtual_memory", lambda: Free(int(FREE)))
+    monkeypatch.setattr("viscontact.runs.machine.memory.free_memory", lambda: FREE)
 
 
 #: Group, mounts and files of a process, and the memory that it has left [bytes]; the names are

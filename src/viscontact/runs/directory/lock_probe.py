@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
-import psutil
+from viscontact.runs.machine.system import mounted
 
 try:
     import fcntl
@@ -33,11 +33,11 @@ def has_locks(directory: Path) -> bool:
 def file_system(directory: Path) -> str:
     """Kind of the file system of a directory; empty if the system does not report it."""
     place, found, longest = f"{directory.resolve()}{os.sep}", "", 0
-    for mounted in psutil.disk_partitions(all=True):
-        mount = mounted.mountpoint.rstrip(os.sep) + os.sep
+    for at, kind in mounted():
+        mount = at.rstrip(os.sep) + os.sep
         # Of several mounts at the same place the last one is visible.
         if len(mount) >= longest and place.startswith(mount):
-            found, longest = mounted.fstype.lower(), len(mount)
+            found, longest = kind.lower(), len(mount)
     return found
 
 

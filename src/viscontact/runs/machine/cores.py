@@ -7,9 +7,8 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-import psutil
-
 from viscontact.runs.machine.control_groups import ROOT, control_groups, number_in
+from viscontact.runs.machine.system import bound_cores
 
 
 def usable_cores(root: Path = ROOT, environment: Mapping[str, str] = os.environ) -> int:
@@ -19,7 +18,7 @@ def usable_cores(root: Path = ROOT, environment: Mapping[str, str] = os.environ)
     allocated = slurm_number("SLURM_CPUS_PER_TASK", environment) or slurm_number(
         "SLURM_CPUS_ON_NODE", environment
     )
-    limits = [_bound_cores(), *_quotas(root), allocated or math.inf]
+    limits = [bound_cores(), *_quotas(root), allocated or math.inf]
     return max(1, math.ceil(min(limits)))
 
 
@@ -27,12 +26,6 @@ def slurm_number(name: str, environment: Mapping[str, str]) -> int:
     """Value of a variable of SLURM; 0 if it is not set or is no number."""
     value = environment.get(name, "").strip()
     return int(value) if value.isdecimal() and value.isascii() else 0
-
-
-def _bound_cores() -> int:
-    process = psutil.Process()
-    # macOS binds no process.
-    return len(process.cpu_affinity()) if hasattr(process, "cpu_affinity") else os.cpu_count() or 1
 
 
 def _quotas(root: Path) -> Iterator[float]:

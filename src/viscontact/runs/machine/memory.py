@@ -7,10 +7,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
-import psutil
-
 from viscontact.runs.machine.control_groups import ROOT, control_groups, number_in
 from viscontact.runs.machine.cores import slurm_number
+from viscontact.runs.machine.system import free_memory, used_memory
 
 #: Limit and usage of a control group [bytes], of versions 2 and 1.
 _FILES = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.usage_in_bytes")
@@ -23,9 +22,9 @@ def available_memory(root: Path = ROOT, environment: Mapping[str, str] = os.envi
     """Memory that is free for this process [bytes]."""
     # The least of the machine's free memory, of what the control groups of the process have left,
     # and of the memory that SLURM has allocated to the job on this node, less that of this process.
-    left = [float(psutil.virtual_memory().available), *_left_in_groups(root)]
+    left = [free_memory(), *_left_in_groups(root)]
     if allocated := _slurm_memory(environment):
-        left.append(allocated - psutil.Process().memory_info().rss)
+        left.append(allocated - used_memory())
     return max(0.0, min(left))
 
 
