@@ -10,6 +10,7 @@ from typing import Any
 
 from viscontact.cli import commands
 from viscontact.cli.plain_words import plain_arguments
+from viscontact.runs.processes.request import DONE, INTERRUPTED
 
 #: Names of the commands, each with an example; their functions are those of `cli.commands`.
 _COMMANDS = {
@@ -52,10 +53,18 @@ def call_for(words: Sequence[str] | None) -> Callable[[], Any]:
         function: Callable[..., None] = getattr(commands, typed[0])
         given = plain_arguments(function, typed[1:])
         if given is not None:
-            return partial(function, **given)
+            return partial(_run, function, given)
     command = command_for(words)
     given_words = None if words is None else typed
     return partial(command, given_words, prog_name="viscontact", standalone_mode=False)
+
+
+def _run(function: Callable[..., None], given: dict[str, Any]) -> int:
+    try:
+        function(**given)
+    except KeyboardInterrupt:  # of which Typer makes the same code
+        return INTERRUPTED
+    return DONE
 
 
 def application(names: Iterable[str] = tuple(_COMMANDS)) -> Any:
