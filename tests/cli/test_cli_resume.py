@@ -562,13 +562,13 @@ sys.exit(main())
 @pytest.mark.parametrize(
     ("name", "module"),
     [
-        ("SIGINT", "typer"),
+        ("SIGINT", "viscontact.cli.plain_words"),
         pytest.param("SIGTERM", "numpy", marks=pytest.mark.slow),
         ("SIGHUP", "exit"),
         *(
             pytest.param(name, module, marks=pytest.mark.slow)
             for module, names in {
-                "typer": ("SIGTERM", "SIGHUP"),
+                "viscontact.cli.plain_words": ("SIGTERM", "SIGHUP"),
                 "numpy": ("SIGINT", "SIGHUP"),
                 "exit": ("SIGINT", "SIGTERM"),
             }.items()
