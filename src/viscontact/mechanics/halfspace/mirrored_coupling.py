@@ -95,26 +95,45 @@ class MirroredCouplingFilter:
 
     def _forward(self, field: Floats, odd: int | None) -> Numbers:
         """Spectrum of a padded field that is odd along one axis, if that is mirrored."""
-        transforms = self._transforms
+        transforms, shape = self._transforms, self.shape
+        first, last = self._order
+        # Lines that are padded only are not transformed along the first axis.
+        lines = np.zeros([shape[at] if at == last else self._lengths[at] for at in (0, 1)])
+        lines[: shape[0], : shape[1]] = field
+        lines = self._turned(lines, first, odd)
         padded = np.zeros(self._lengths)
-        padded[: self.shape[0], : self.shape[1]] = field
-        for axis in (0, 1):
-            if self._mirrored[axis]:
-                turn = transforms.sine_forward if axis == odd else transforms.cosine_forward
-                padded = turn(padded, axis)
+        padded[part_along(last, slice(shape[last]))] = lines
         if self._plain is None:
-            return padded
+            return self._turned(padded, last, odd)
         waves = list(self._lengths)
-        waves[self._plain] = waves[self._plain] // 2 + 1
-        return transforms.real_forward(padded, np.empty(waves, np.complex128), self._plain)
+        waves[last] = waves[last] // 2 + 1
+        return transforms.real_forward(padded, np.empty(waves, np.complex128), last)
+
+    @property
+    def _order(self) -> tuple[int, int]:
+        """Axes in the order of the transforms: that of Fourier transforms is the last."""
+        return (1, 0) if self._plain in (None, 0) else (0, 1)
+
+    def _turned(self, field: Floats, axis: int, odd: int | None) -> Floats:
+        """Sines or cosines of a field along a mirrored axis, in its place."""
+        transforms = self._transforms
+        turn = transforms.sine_forward if axis == odd else transforms.cosine_forward
+        return turn(field, axis)
 
     def _inverse(self, spectrum: Numbers, odd: int | None) -> Floats:
         """Field of a spectrum, odd along one axis if that is mirrored, without what was padded."""
-        transforms, field = self._transforms, spectrum
-        if self._plain is not None:
-            field = transforms.real_inverse(spectrum, np.empty(self._lengths), self._plain)
-        for axis in (0, 1):
-            if self._mirrored[axis]:
-                turn = transforms.sine_inverse if axis == odd else transforms.cosine_inverse
-                field = turn(np.ascontiguousarray(field), axis)
-        return np.asarray(field[: self.shape[0], : self.shape[1]])
+        first, last = self._order
+        if self._plain is None:
+            field = self._turned_back(spectrum, last, odd)
+        else:
+            spare = np.empty(self._lengths)
+            field = self._transforms.real_inverse(spectrum, spare, last)
+        lines = np.ascontiguousarray(field[part_along(last, slice(self.shape[last]))])
+        lines = self._turned_back(lines, first, odd)
+        return np.asarray(lines[: self.shape[0], : self.shape[1]])
+
+    def _turned_back(self, spectrum: Floats, axis: int, odd: int | None) -> Floats:
+        """Field of sines or cosines along a mirrored axis, in its place."""
+        transforms = self._transforms
+        turn = transforms.sine_inverse if axis == odd else transforms.cosine_inverse
+        return turn(spectrum, axis)

@@ -64,7 +64,7 @@ def solve_slip(
     shift = block.shift
     slips = on_circle(start, problem.bound, problem.in_contact)
     traction = balanced(start, problem.bound, shift, problem.constraints, slips)
-    found = _judged(problem, block, traction, motion)
+    found = _judged(problem, block, traction, motion, single=tolerance > FINE)
     iterations, convolutions, failures, tries = 0, 1, 0, MOST_TRIES
     for _ in range(MAX_STEPS):
         if found.error <= tolerance:
@@ -124,10 +124,16 @@ def _is_better(new: SlipResidual, old: SlipResidual) -> bool:
 
 
 def _judged(
-    problem: SlipProblem, block: ShearBlock, traction: Floats, motion: Floats | None = None
+    problem: SlipProblem,
+    block: ShearBlock,
+    traction: Floats,
+    motion: Floats | None = None,
+    *,
+    single: bool = False,
 ) -> SlipResidual:
     """Residual of a traction by a fresh convolution, near a motion."""
-    moved = block.convolution.apply(traction) if traction.any() else np.zeros(traction.shape)
+    operator = block.search if single else block.convolution
+    moved = operator.apply(traction) if traction.any() else np.zeros(traction.shape)
     return slip_residual(problem, block.shift, traction, moved, motion)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +20,9 @@ LEAST_LEFT, MOST_LEFT, LEFT = 0.01, 0.3, 5.0
 
 #: Imbalance over what friction carries that needs no restoring: that of balanced tractions.
 RESTORED = 1e-12
+
+#: Product of a motion with tractions, over the cells, below which these do not restore it [-].
+DETERMINED = 1e-12
 
 #: Search directions of one step.
 MAX_DIRECTIONS = 120
@@ -75,14 +79,19 @@ class NewtonSystem:
         return np.asarray(np.where(self.directions.slips, tangent, (xx + yy) / 2), np.float32)
 
     @cached_property
+    def softness(self) -> Singles:
+        """Part of the half-space in the diagonal of each cell [-]."""
+        return np.asarray(1 / (1 + self._diagonal / OWN), np.float32)
+
+    @cached_property
     def _share(self) -> Singles:
-        """Root of the part of the half-space in the diagonal of each cell [-]."""
-        return np.asarray(1 / np.sqrt(1 + self._diagonal / OWN), np.float32)
+        """Its root [-]."""
+        return np.sqrt(self.softness)
 
     @cached_property
     def _local(self) -> Singles:
         """Inverse of the diagonal times the part that is not the half-space's [-]."""
-        return np.asarray((1 - self._share**2) / (self._diagonal + OWN), np.float32)
+        return np.asarray((1 - self.softness) / (self._diagonal + OWN), np.float32)
 
     def projected(self, fields: Singles) -> Singles:
         """Components along free directions."""
@@ -112,8 +121,10 @@ class NewtonSystem:
 class ConstrainedSteps:
     """Preconditioner of the system under the constraint of the resultants.
 
-    Conjugate gradients with M^-1 r less the motions' M^-1 E that restore the resultants stay on the
-    constraint (N. Gould, M. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376).
+    Steps Q M^-1 Q^T r with Q = 1 - Z (E^T Z)^-1 E^T of the rigid motions E have no resultants, and
+    the matrix is symmetric, whatever tractions Z restore these. Z = M^-1 E is the choice of N.
+    Gould, M. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376, and takes a filter for each
+    motion. Motions over the diagonal, taken here, take none, and no more search directions.
     """
 
     def __init__(self, system: NewtonSystem) -> None:
@@ -121,36 +132,56 @@ class ConstrainedSteps:
         constraints = system.problem.constraints
         #: A rotation counts as a shift at the arm.
         self._scales = np.array([1.0, 1.0, 1 / constraints.arm])
-        self._motions = [
-            system.preconditioned(system.projected(self._shift.field(unit).astype(np.float32)))
-            if free
-            else np.zeros(system.normal.shape, np.float32)
-            for unit, free in zip(np.diag(self._scales), constraints.free, strict=True)
+        units = np.diag(self._scales)
+        self._modes = [mode for mode in range(3) if constraints.free[mode]]
+        self._rigid = [
+            system.projected(self._shift.field(units[mode]).astype(np.float32))
+            for mode in self._modes
         ]
-        gram = np.array([self._resultants(motion) for motion in self._motions])
-        self._inverse = pseudo_inverse((gram + gram.T) / 2, constraints.free, 1.0)
+        self._restoring = [rigid * system.softness for rigid in self._rigid]
+        self._fitting, self._inverse = (
+            self._inverse_of(each) for each in (self._rigid, self._restoring)
+        )
 
-    def _resultants(self, fields: Singles) -> Floats:
-        return np.asarray(self._shift.resultants(fields) * self._scales)
+    def _inverse_of(self, fields: Sequence[Singles]) -> Floats:
+        """Inverse of products of the rigid motions with fields, 0 for motions that are held."""
+        found, free = np.zeros((3, 3)), np.zeros(3, bool)
+        for column, field in zip(self._modes, fields, strict=True):
+            found[:, column] = self._along(self._rigid, field)
+            # Where all cells slip along a motion, what is left of it is rounding.
+            free[column] = found[column, column] > DETERMINED * np.count_nonzero(self._system.held)
+        return pseudo_inverse(found, free, 1.0)
+
+    def _along(self, fields: Sequence[Singles], given: Singles) -> Floats:
+        """Products of fields with a given one."""
+        found = np.zeros(3)
+        for mode, field in zip(self._modes, fields, strict=True):
+            found[mode] = _dot(field, given)
+        return found
+
+    def _less(self, given: Singles, coefficients: Floats, fields: Sequence[Singles]) -> Singles:
+        """A field less multiples of others."""
+        for mode, field in zip(self._modes, fields, strict=True):
+            given = given - np.float32(coefficients[mode]) * field
+        return given
 
     def restoring(self, lacking: Floats) -> Singles:
         """Step with given resultants [N, N, N m]."""
-        return self._moved(self._inverse @ (lacking * self._scales))
+        wanted = lacking * self._scales / self._shift.cell_area
+        nothing = np.zeros(self._system.normal.shape, np.float32)
+        return self._less(nothing, -(self._inverse @ wanted), self._restoring)
 
-    def preconditioned(self, residual: Singles) -> tuple[Singles, Floats]:
-        """Step without resultants for a residual, and the motion that is taken out of it."""
-        step = self._system.preconditioned(residual)
-        motion = self._inverse @ self._resultants(step)
-        return step - self._moved(motion), motion * self._scales
+    def preconditioned(self, residual: Singles) -> Singles:
+        """Step without resultants for a residual."""
+        motion = self._inverse @ self._along(self._restoring, residual)
+        step = self._system.preconditioned(self._less(residual, motion, self._rigid))
+        return self._less(step, self._inverse @ self._along(self._rigid, step), self._restoring)
 
-    def largest_left(self, residual: Singles, motion: Floats) -> float:
-        """Largest component of a residual without a motion [-]."""
-        rigid = self._shift.field(motion).astype(np.float32)
-        return float(np.abs(residual - self._system.projected(rigid)).max())
-
-    def _moved(self, coefficients: Floats) -> Singles:
-        pairs = zip(coefficients.astype(np.float32), self._motions, strict=True)
-        return np.asarray(sum(coefficient * motion for coefficient, motion in pairs))
+    def fitted(self, residual: Singles) -> tuple[Floats, float]:
+        """Motion that fits a residual best, and the largest component that it leaves [-]."""
+        motion = self._fitting @ self._along(self._rigid, residual)
+        left = self._less(residual, motion, self._rigid)
+        return motion * self._scales, float(np.abs(left).max())
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,22 +238,20 @@ def conjugate_gradients(
 ) -> tuple[Singles, Floats, int]:
     """Step for a residual up to a part `least` of it, the motion taken out, and the directions."""
     step = np.zeros(residual.shape, np.float32)
-    conjugate, motion = steps.preconditioned(residual)
-    first = energy = _dot(residual, conjugate)
-    direction, iterations = conjugate, 0
-    while iterations < MAX_DIRECTIONS and (
-        energy > least**2 * first or steps.largest_left(residual, motion) > least
-    ):
+    motion, left = steps.fitted(residual)
+    direction, energy, iterations = step, 1.0, 0
+    while left > least and iterations < MAX_DIRECTIONS:
+        conjugate = steps.preconditioned(residual)
+        before, energy = energy, _dot(residual, conjugate)
+        if not energy > 0:  # nothing is left in single precision
+            break
+        direction = conjugate + np.float32(energy / before) * direction
         image = system.apply(direction)
         ratio = np.float32(energy / _dot(direction, image))
         step = step + ratio * direction
         residual = residual - ratio * image
-        conjugate, motion = steps.preconditioned(residual)
-        before, energy = energy, _dot(residual, conjugate)
-        direction = conjugate + np.float32(energy / before) * direction
+        motion, left = steps.fitted(residual)
         iterations += 1
-        if not energy > 0:  # nothing is left in single precision
-            break
     return step, motion, iterations
 
 

@@ -41,6 +41,9 @@ class RigidShift:
     def gram(self, xx: Numbers, xy: Numbers, yy: Numbers) -> Floats:
         """Sums over cells of the three motions with weights, a symmetric matrix for each cell."""
         x, y = self.x, self.y
+        if not self.modes[2]:
+            a, b, d = float(xx.sum()), float(xy.sum()), float(yy.sum())
+            return np.array([[a, b, 0.0], [b, d, 0.0], [0.0, 0.0, 0.0]])
         turned_x, turned_y = xy * x - xx * y, yy * x - xy * y  # of the rotation
         entries = [xx.sum(), xy.sum(), turned_x.sum(), yy.sum(), turned_y.sum()]
         last = float((x * turned_y - y * turned_x).sum())
