@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.mechanics.contact.friction.discs import balanced, on_circle
+from viscontact.mechanics.contact.friction.discs import balanced, lengths, on_circle
 from viscontact.mechanics.contact.friction.newton_step import newton_step
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
 from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_residual
@@ -43,6 +43,10 @@ FEW, LESS = 0.1, 0.5
 
 #: Vain tries of sliding, as under a force beyond what friction carries.
 MOST_TRIES = 3
+
+#: Part of what friction carries that a traction may lack to count as slipping: closer to its circle
+#: a cell sticks or slips by the accuracy of the search, now this way and now that.
+REACHED = 1e-4
 
 #: Imbalance of a solution over the force that friction carries.
 IMBALANCE = 1e-9
@@ -166,12 +170,13 @@ def _solution(
     meets = carried == 0 or problem.constraints.imbalance(resultants, carried) <= IMBALANCE
     # All cells on their circles: in a held load slip is rounding, in this direction or that.
     slips = on_circle(traction, problem.bound, problem.in_contact)
+    reaches = problem.in_contact & (lengths(traction) >= (1 - REACHED) * problem.bound)
     return SlipSolution(
         traction,
         found.motion,
         found.slip * slips,
         found.slip,
-        problem.in_contact.astype(np.int8) + slips,
+        problem.in_contact.astype(np.int8) + reaches,
         found.error,
         found.duality_gap,
         found.displacement,
