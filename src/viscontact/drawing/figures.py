@@ -131,13 +131,11 @@ TABLE = (
     _fields("indenter"),
     _fields(
         "stick-map",
-        of="time",
         takes=("times",),
         reported=Reported("slip", "Sticking and slipping cells", of_use="has_stored_slip"),
     ),
     _fields(
         "traction-profile",
-        of="time",
         takes=("times", "along", "at"),
         reported=Reported("slip", "Section through the tractions", of_use="has_stored_slip"),
     ),

@@ -10,6 +10,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads import TangentialLoad
 from viscontact.results.recorded_objects import recorded_object
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.variables import scalars_in
 
@@ -20,11 +21,21 @@ def is_gripping(results: xr.Dataset) -> bool:
 
 
 def require_grip(results: xr.Dataset, figure: str) -> None:
-    """Check that a run has friction; ValueError otherwise."""
-    if not is_gripping(results):
+    """Check that a run over time has friction; ValueError otherwise."""
+    require_tractions(results, figure)
+    if not run_axis(results).is_history:
         raise ValueError(
-            f"{figure}: needs a run under friction, got one without; give friction and a "
-            "tangential load"
+            f"{figure}: shows slip over time, and this result is of steady motion, over speed and "
+            "creepage; draw traction-creepage, stick-map or traction-profile"
+        )
+
+
+def require_tractions(results: xr.Dataset, figure: str) -> None:
+    """Check that a result, over time or in steady motion, has friction; ValueError otherwise."""
+    if "slip_fraction" not in results:
+        wanted = "a tangential load" if run_axis(results).is_history else "creepages of the motion"
+        raise ValueError(
+            f"{figure}: needs a run under friction, got one without; give friction and {wanted}"
         )
 
 

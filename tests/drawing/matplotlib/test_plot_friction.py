@@ -142,3 +142,50 @@ def test_a_roller_with_a_creepage_has_its_stick_map_and_report():
     assert fretting_cycles(ds, "stick-map") == ()
     shown = vc.plot.stick_map(ds)
     assert len(shown.axes) == 2  # the instants under traction
+
+
+@pytest.fixture(scope="module")
+def rolling() -> xr.Dataset:
+    """A ball at two speeds under three creepages, the last of which makes it slide."""
+    ball, load = vc.Paraboloid(0.01, 0.01), vc.step(1.0, tilt_x=0.0, tilt_y=0.0)
+    return vc.steady(
+        *(ball, vc.Material(vc.Elastic(1e6), 0.5), load, [0.01, 0.1]),
+        grid=vc.Grid((24, 24), (3.4e-3, 3.4e-3)),
+        friction=0.5,
+        creepage=[0.2, -0.02, 0.05],
+        errors=False,
+    )
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_steady_motion_is_shown_under_its_creepages(rolling: xr.Dataset) -> None:
+    """In order at one speed; of several speeds and of a chosen creepage one each."""
+    figure = plot.stick_map(rolling)
+    assert [axes.get_title(loc="left").split("\n")[-1] for axes in figure.axes] == [
+        f"100 mm/s, creepage {each} %" for each in (-2, 5, 20)
+    ]
+    for axes, creepage in zip(figure.axes, (-0.02, 0.05, 0.2), strict=True):
+        state = rolling.slip_state.sel(speed=0.1, creepage=creepage).values
+        np.testing.assert_array_equal(np.ma.filled(axes.collections[0].get_array(), 0), state.T)
+        # A body that brakes is pulled back by the surface, towards its motion along +y.
+        assert (np.sign(axes.collections[1].V) == -np.sign(creepage)).all()
+    lines = plot.traction_profile(rolling, at=0.0).axes[0].get_lines()
+    assert [each.get_label() for each in lines[::3]] == [
+        f"100 mm/s, {each} %" for each in (-2, 5, 20)
+    ]
+    slides, low = (np.asarray(each.get_ydata()) for each in (lines[6], lines[8]))
+    # Beside the middle tractions turn a little to the side.
+    np.testing.assert_allclose(slides, low, rtol=1e-4)
+    assert len(plot.stick_map(rolling, times=[0.01, 0.1]).axes) == 2
+    chosen = plot.stick_map(rolling.sel(creepage=0.05), times=[0.01])
+    (axes,) = chosen.axes
+    assert axes.get_title(loc="left").endswith("10 mm/s, creepage 5 %")
+
+
+def test_figures_over_time_name_those_of_steady_motion(rolling: xr.Dataset) -> None:
+    for draw in (plot.fretting_loop, plot.slip_history):
+        with pytest.raises(ValueError, match=r"steady motion.*draw traction-creepage, stick-map"):
+            draw(rolling)
+    free = rolling.drop_vars("slip_fraction")
+    with pytest.raises(ValueError, match="give friction and creepages of the motion"):
+        plot.stick_map(free)

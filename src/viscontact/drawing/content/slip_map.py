@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -9,13 +11,10 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.drawing.content.map import Maps, maps_at
-from viscontact.results.fretting import fretting_cycles, require_grip
-from viscontact.results.shown_rows import shown_rows
-from viscontact.results.snapshots import Snapshot, field_at, field_times
+from viscontact.drawing.content.slip_states import slip_states
+from viscontact.results.snapshots import Snapshot, field_at
 from viscontact.units.formatting import format_quantity
 
-#: Instants that are shown by default.
-_INSTANTS = 4
 #: Numbers of `slip_state`.
 STICK, SLIP = 1, 2
 #: Arrows along the longer side of a window, and least length of one over the longest.
@@ -24,7 +23,7 @@ _ARROWS, _SHORTEST = 17, 0.03
 
 @dataclass(frozen=True, eq=False)
 class SlipMap:
-    """Cells that stick and slip at one instant, and some of their tractions."""
+    """Cells that stick and slip at one instant or creepage, and some of their tractions."""
 
     state: Floats  # 0 open, 1 stick, 2 slip, shape (nx, ny)
     places: Floats  # where arrows begin [m], shape (n, 2)
@@ -57,26 +56,17 @@ class SlipMaps:
         return "; ".join(filter(None, (longest, self.maps.window.note)))
 
 
-def slip_instants(run: xr.Dataset, figure: str) -> Floats:
-    """Instants of the last cycle, or under a tangential load, at which slip is shown [s]."""
-    stored = field_times(run, figure)
-    if cycles := fretting_cycles(run, figure):
-        return np.linspace(cycles[-1].begin, cycles[-1].end, _INSTANTS, endpoint=False)
-    scalars = run.sel(time=stored, method="nearest")
-    names = ("tangential_force_x", "tangential_force_y", "torque")
-    pulled = np.any([np.nan_to_num(scalars[name].values) != 0 for name in names], axis=0)
-    shown = stored[pulled] if pulled.any() else stored
-    chosen = shown_rows(shown.size, _INSTANTS)
-    return np.asarray(shown[chosen])
-
-
 def slip_maps(run: xr.Dataset, times: ArrayLike | None, figure: str) -> SlipMaps:
-    """Maps at requested instants [s], by default some of a run."""
-    require_grip(run, figure)
-    maps = maps_at(run, slip_instants(run, figure) if times is None else times, figure)
-    window = maps.window
+    """Maps at requested instants [s] or speeds [m/s], by default some of a run."""
+    states = slip_states(run, times, figure)
+    # Maps of one speed differ in the creepage only.
+    places = list(dict.fromkeys(each.shown.time for each in states))
+    maps = maps_at(run, places, figure)
+    known = {each.snapshot.time: each for each in maps.maps}
+    shown = (replace(known[each.shown.time], heading=each.heading) for each in states)
+    maps, window = replace(maps, maps=tuple(shown)), maps.window
     longer = max(window.x[1] - window.x[0], window.y[1] - window.y[0])
-    found = tuple(_slip_map(run, each, longer / _ARROWS, figure) for each in maps.snapshots)
+    found = tuple(_slip_map(each.run, each.shown, longer / _ARROWS, figure) for each in states)
     largest = max(float(np.hypot(*each.tractions.T).max(initial=0.0)) for each in found)
     return SlipMaps(maps, tuple(_without_short(each, _SHORTEST * largest) for each in found))
 

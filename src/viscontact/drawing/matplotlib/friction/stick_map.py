@@ -24,15 +24,18 @@ _LONGEST = 1.4
 def stick_map(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw the cells that stick and slip, one panel per instant, with arrows of the tractions.
+    """Draw the cells that stick and slip, a panel per instant or creepage, with their tractions.
 
     Parameters
     ----------
     results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with friction and fields stored.
+        From `viscontact.simulate`, `viscontact.steady` or `viscontact.open_results`, with friction
+        and fields stored.
     times : array_like, optional
-        Instants [s]; the nearest stored ones are drawn and named. By default four of the last
-        cycle of the tangential load, or of the time under it.
+        Instants [s], or in steady motion speeds [m/s]; the nearest stored ones are drawn and named.
+        By default four instants of the last cycle of the tangential load, or of the time under it,
+        or the largest speed. Of one speed up to four creepages are drawn, of several speeds that of
+        the largest traction; ``results.sel(creepage=...)`` chooses one.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 

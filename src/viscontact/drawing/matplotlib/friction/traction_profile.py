@@ -29,10 +29,13 @@ def traction_profile(
     Parameters
     ----------
     results : xarray.Dataset
-        From `viscontact.simulate` or `viscontact.open_results`, with friction and fields stored.
+        From `viscontact.simulate`, `viscontact.steady` or `viscontact.open_results`, with friction
+        and fields stored.
     times : array_like, optional
-        Instants [s]; the nearest stored ones are drawn and named. By default four of the last
-        cycle of the tangential load, or of the time under it.
+        Instants [s], or in steady motion speeds [m/s]; the nearest stored ones are drawn and named.
+        By default four instants of the last cycle of the tangential load, or of the time under it,
+        or the largest speed. Of one speed up to four creepages are drawn, of several speeds that of
+        the largest traction; ``results.sel(creepage=...)`` chooses one.
     along : {"x", "y"}, optional
         Direction of the line; by default that of the larger component of the tractions, which is
         drawn, or across the period of a line contact.
@@ -46,8 +49,8 @@ def traction_profile(
     Returns
     -------
     matplotlib.figure.Figure
-        A line for each instant, and dotted ones for the largest traction that friction carries, on
-        both sides.
+        A line for each instant or creepage, and dotted ones for the largest traction that friction
+        carries, on both sides.
 
     Raises
     ------
