@@ -15,6 +15,19 @@ void weighted_sum(double *sum, std::ptrdiff_t size, const std::vector<double> &w
 double mean_change(const Field<Flag> &where, const Field<double> &field, const Field<double> *other,
                    int threads);
 
+// Rate of a field over a step, and means over the cells under pressure at one of its ends: of the
+// field's size at its end, of the rate's size, and of its change from the rate before it, if given.
+struct StepChange {
+    double size, rate, change;
+};
+
+StepChange step_change(const Field<double> &pressure, const Field<double> &pressure_before,
+                       const Field<double> &late, const Field<double> &early, double duration,
+                       const Field<double> *rate_before, const Field<double> &rate, int threads);
+
+// Largest mean of a line of values over a window of so many of them, which may begin between two.
+double largest_mean(const std::vector<double> &values, double window);
+
 // Values at their last turns and whether they rise since then: see recession.py.
 struct Trend {
     Field<double> extreme;

@@ -57,6 +57,28 @@ void define_history(nb::module_ &module) {
                return viscontact::mean_change(field(shape, where), field(shape, late), &other,
                                               threads);
            });
+    define(module, "step_change",
+           [](Array<const double> pressure, Array<const double> pressure_before,
+              Array<const double> late, Array<const double> early, double duration,
+              std::optional<Array<const double>> rate_before, Array<double> rate, int threads) {
+               const Shape shape = shape_of(late);
+               viscontact::Field<double> before{};
+               if (rate_before) before = field(shape, *rate_before);
+               const auto found = viscontact::step_change(
+                   field(shape, pressure), field(shape, pressure_before), field(shape, late),
+                   field(shape, early), duration, rate_before ? &before : nullptr,
+                   field(shape, rate), threads);
+               return std::tuple(found.size, found.rate, found.change);
+           });
+    define(module, "largest_mean",
+           [](nb::ndarray<const double, nb::ndim<1>, nb::device::cpu, nb::c_contig> values,
+              double window) {
+               const double *first = values.data();
+               const std::vector<double> line(first, first + values.shape(0));
+               if (!(window > 0 && window <= static_cast<double>(line.size())))
+                   throw std::invalid_argument("the window is longer than 0 and fits into the line");
+               return viscontact::largest_mean(line, window);
+           });
     define(module, "follow_trends",
            [](Array<const double> gap, Array<const double> pressure, Array<const bool> in_contact,
               double error, double turns, GivenTrends before, Trends after, int threads) {

@@ -118,12 +118,15 @@ std::vector<Interval> changes(const Field<Flag> &contact) {
         here.outwards = {here.outer.row - here.inner.row, here.outer.column - here.inner.column};
         found.push_back(here);
     };
+    std::vector<Flag> marks(contact.columns, 0);
     for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
         const Flag *row = contact.row(i), *next = i + 1 < contact.rows ? contact.row(i + 1) : row;
-        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) {
+        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) marks[j] = row[j] ^ next[j];
+        for (std::ptrdiff_t j = 0; j + 1 < contact.columns; ++j) marks[j] |= row[j] ^ row[j + 1];
+        each_marked(marks.data(), contact.columns, [&](std::ptrdiff_t j) {
             if (row[j] != next[j]) note(0, i, j);
             if (j + 1 < contact.columns && row[j] != row[j + 1]) note(1, i, j);
-        }
+        });
     }
     return found;
 }
@@ -189,27 +192,44 @@ void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const Edge
         along(here.axis).row(here.start.row)[here.start.column] = here.located;
 }
 
+namespace {
+
+// Writes how many corners of each square are inside, 0 in place of all four; returns how many
+// squares have all four.
+FOR_PROCESSORS
+std::ptrdiff_t count_corners(const Flag *near, const Flag *far, std::ptrdiff_t squares,
+                             Flag *count) {
+    std::int32_t whole = 0;
+    for (std::ptrdiff_t j = 0; j < squares; ++j)
+        count[j] = near[j] + near[j + 1] + far[j] + far[j + 1];
+#pragma omp simd reduction(+ : whole)
+    for (std::ptrdiff_t j = 0; j < squares; ++j) whole += count[j] >> 2;
+    for (std::ptrdiff_t j = 0; j < squares; ++j) count[j] &= 3;
+    return whole;
+}
+
+}  // namespace
+
 double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment) {
     const auto crossing = [](double value) { return std::isnan(value) ? 0.0 : value; };
     double enclosed = 0;
+    std::vector<Flag> count(contact.columns);
+    const std::ptrdiff_t squares = contact.columns - 1;
     for (std::ptrdiff_t i = 0; i + 1 < contact.rows; ++i) {
         const Flag *near = contact.row(i), *far = contact.row(i + 1);
         const double *along_x = rim.along_x.row(i);
         const double *lower_y = rim.along_y.row(i), *upper_y = rim.along_y.row(i + 1);
-        std::ptrdiff_t whole = 0;
-        for (std::ptrdiff_t j = 0; j + 1 < contact.columns; ++j) {
-            const int corners = near[j] + near[j + 1] + far[j] + far[j + 1];
-            whole += corners == 4;
-            if (corners == 0 || corners == 4) continue;
+        enclosed += static_cast<double>(count_corners(near, far, squares, count.data()));
+        each_marked(count.data(), squares, [&](std::ptrdiff_t j) {
             const double left = crossing(along_x[j]), right = crossing(along_x[j + 1]);
             const double lower = crossing(lower_y[j]), upper = crossing(upper_y[j]);
             const double u = left + right, v = lower + upper;
             // One corner inside: a triangle. Two neighbours: a trapezium between the crossings of
             // the two edges that leave their side. Three: the square without a triangle. Signed
             // areas where a crossing lies beyond the square: their sum is that of the polygons.
-            if (corners == 1)
+            if (count[j] == 1)
                 enclosed += u * v / 2 + segment;
-            else if (corners == 3)
+            else if (count[j] == 3)
                 enclosed += 1 - (1 - u) * (1 - v) / 2 - segment;
             else if (near[j] != far[j + 1])
                 enclosed += (u + v) / 2;
@@ -217,8 +237,7 @@ double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segme
                 enclosed +=
                     (near[j] ? left * lower + right * upper : left * upper + right * lower) / 2 +
                     2 * segment;
-        }
-        enclosed += static_cast<double>(whole);
+        });
     }
     return enclosed;
 }
@@ -267,15 +286,13 @@ std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells) {
 Extents extents(const Field<Flag> &contact, const Rim &rim) {
     Extents found{0, 0, 0, 0};
     const auto [first_row, last_row, first_column, last_column] = spans(contact);
-    for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
-        found.rows += std::any_of(contact.row(i), contact.row(i) + contact.columns,
-                                  [](Flag each) { return each; });
-    for (std::ptrdiff_t j = 0; j < contact.columns; ++j)
-        for (std::ptrdiff_t i = 0; i < contact.rows; ++i)
-            if (contact.row(i)[j]) {
-                ++found.columns;
-                break;
-            }
+    std::vector<Flag> touched(contact.columns, 0);
+    for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
+        const Flag *row = contact.row(i);
+        found.rows += std::memchr(row, 1, contact.columns) != nullptr;
+        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) touched[j] |= row[j];
+    }
+    found.columns = std::count(touched.begin(), touched.end(), Flag{1});
     if (found.rows == 0) return found;
     found.along_x = extent(
         contact.rows, contact.columns, first_row, last_row,
@@ -288,19 +305,71 @@ Extents extents(const Field<Flag> &contact, const Rim &rim) {
     return found;
 }
 
+namespace {
+
+FOR_PROCESSORS
+std::int32_t count(const Flag *row, std::ptrdiff_t cells) {
+    std::int32_t found = 0;
+#pragma omp simd reduction(+ : found)
+    for (std::ptrdiff_t j = 0; j < cells; ++j) found += row[j];
+    return found;
+}
+
+// Marked cells whose partners in another row are not.
+FOR_PROCESSORS
+std::int32_t count_without(const Flag *row, const Flag *other, std::ptrdiff_t cells) {
+    std::int32_t found = 0;
+#pragma omp simd reduction(+ : found)
+    for (std::ptrdiff_t j = 0; j < cells; ++j) found += row[j] & ~other[j];
+    return found;
+}
+
+// Cells in contact, and the numbers of chords of consecutive ones along x and y.
 std::array<std::ptrdiff_t, 3> chords(const Field<Flag> &contact) {
     std::array<std::ptrdiff_t, 3> found{};
+    const std::vector<Flag> nothing(contact.columns, 0);
     for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
-        const Flag *row = contact.row(i), *before = i ? contact.row(i - 1) : nullptr;
-        std::int32_t cells = 0, along_x = 0, along_y = 0;
-        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) {
-            cells += row[j];
-            along_x += row[j] & !(before && before[j]);
-            along_y += row[j] & !(j && row[j - 1]);
-        }
-        found[0] += cells, found[1] += along_x, found[2] += along_y;
+        const Flag *row = contact.row(i), *before = i ? contact.row(i - 1) : nothing.data();
+        found[0] += count(row, contact.columns);
+        found[1] += count_without(row, before, contact.columns);
+        found[2] += row[0] + count_without(row + 1, row, contact.columns - 1);
     }
     return found;
+}
+
+}  // namespace
+
+double Segments::of(const Field<Flag> &contact, const Field<double> &gap) const {
+    const auto [cells, lines_x, lines_y] = chords(contact);
+    if (cells == 0) return whole;
+    const double count = static_cast<double>(cells);
+    const double along_x = count / static_cast<double>(lines_x);
+    const double along_y = count / static_cast<double>(lines_y);
+    // Crossings at the body's outline have no such error.
+    std::ptrdiff_t at_end = 0, outside = 0;
+    for (std::ptrdiff_t i = 0; i < gap.rows; ++i) {
+        const double *row = gap.row(i);
+        int here = 0;
+        for (std::ptrdiff_t j = 0; j < gap.columns; ++j) here += std::abs(row[j]) == BEYOND;
+        outside += here;
+    }
+    for (std::ptrdiff_t i = 0; outside && i < contact.rows; ++i) {
+        const Flag *row = contact.row(i);
+        for (std::ptrdiff_t j = 0; j < contact.columns; ++j) {
+            if (!row[j]) continue;
+            const auto beyond = [&](std::ptrdiff_t r, std::ptrdiff_t c) {
+                return std::isinf(at(gap, {r, c}, 0.0));
+            };
+            at_end += beyond(i - 1, j) + beyond(i + 1, j) + beyond(i, j - 1) + beyond(i, j + 1);
+        }
+    }
+    double by_gap = 1;
+    if (at_end) {
+        const double ends = 2 * count * (1 / along_x + 1 / along_y);
+        by_gap = std::max(1 - static_cast<double>(at_end) / ends, 0.0);
+    }
+    const double lost = loss / std::max(std::sqrt(along_x * along_y), 1.0);
+    return whole * (1 - by_gap * std::min(lost, 1 - least));
 }
 
 }  // namespace viscontact

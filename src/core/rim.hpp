@@ -38,6 +38,14 @@ void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const Edge
 // Squares between four neighbouring centres that the polygons through the crossings enclose.
 double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment);
 
+// Area between the rim and its chords per quarter turn: `whole` of it, of which `loss` over the
+// mean chord is the error of crossings by the gap, as long as a `least` part is left.
+struct Segments {
+    double whole, loss, least;
+
+    double of(const Field<Flag> &contact, const Field<double> &gap) const;
+};
+
 // Extents of a contact between its farthest crossings along x and y, in cells, and the numbers of
 // rows and columns that it touches.
 struct Extents {
@@ -49,8 +57,5 @@ Extents extents(const Field<Flag> &contact, const Rim &rim);
 
 // First and last rows and columns with marked cells; -1 without any.
 std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells);
-
-// Cells in contact, and the numbers of chords of consecutive ones along x and y.
-std::array<std::ptrdiff_t, 3> chords(const Field<Flag> &contact);
 
 }  // namespace viscontact

@@ -47,26 +47,26 @@ void define_rim(nb::module_ &module) {
                                       recession ? &receding : nullptr, ends ? &at_ends : nullptr,
                                       crossings(shape, along_x, along_y));
            });
-    define(module, "enclosed_squares",
+    define(module, "segment",
+           [](Array<const bool> contact, Array<const double> gap,
+              std::tuple<double, double, double> of) {
+               const auto [whole, loss, least] = of;
+               const Shape shape = shape_of(contact);
+               const viscontact::Segments segments{whole, loss, least};
+               return segments.of(field(shape, contact), field(shape, gap));
+           });
+    define(module, "measure_rim",
            [](Array<const bool> contact, Array<const double> along_x, Array<const double> along_y,
               double segment) {
                const Shape shape = shape_of(contact);
-               return viscontact::enclosed_squares(field(shape, contact),
-                                                   crossings(shape, along_x, along_y), segment);
-           });
-    define(module, "rim_extents",
-           [](Array<const bool> contact, Array<const double> along_x, Array<const double> along_y) {
-               const Shape shape = shape_of(contact);
-               const auto found =
-                   viscontact::extents(field(shape, contact), crossings(shape, along_x, along_y));
-               return std::tuple(found.along_x, found.along_y, found.rows, found.columns);
+               const auto cells = field(shape, contact);
+               const auto rim = crossings(shape, along_x, along_y);
+               const auto found = viscontact::extents(cells, rim);
+               return std::tuple(viscontact::enclosed_squares(cells, rim, segment), found.along_x,
+                                 found.along_y, found.rows, found.columns);
            });
     define(module, "spans", [](Array<const bool> cells) {
         const auto found = viscontact::spans(field(shape_of(cells), cells));
         return std::tuple(found[0], found[1], found[2], found[3]);
-    });
-    define(module, "chords", [](Array<const bool> contact) {
-        const auto found = viscontact::chords(field(shape_of(contact), contact));
-        return std::tuple(found[0], found[1], found[2]);
     });
 }

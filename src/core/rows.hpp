@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -18,6 +19,21 @@ namespace viscontact {
 
 constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
 constexpr double BEYOND = std::numeric_limits<double>::infinity();
+
+// Visits the places of a row of bytes that are not zero, of which there are few.
+template <class Visit>
+void each_marked(const Flag *marks, std::ptrdiff_t count, const Visit &visit) {
+    constexpr std::ptrdiff_t EIGHT = sizeof(std::uint64_t);
+    std::ptrdiff_t j = 0;
+    for (; j + EIGHT <= count; j += EIGHT) {
+        std::uint64_t eight;
+        std::memcpy(&eight, marks + j, EIGHT);
+        for (std::ptrdiff_t k = j; eight && k < j + EIGHT; ++k)
+            if (marks[k]) visit(k);
+    }
+    for (; j < count; ++j)
+        if (marks[j]) visit(j);
+}
 
 template <class Part>
 Part total_of(const std::vector<Part> &parts) {

@@ -124,7 +124,7 @@ def test_rim_of_a_hole_does_not_mind_the_border(roll):
     gap[0, 3] = 1e-9
     gap = np.roll(gap, (roll, roll), axis=(0, 1))
     rim = trace_rim(PERIOD, gap == 0, gap)
-    open_area = (0.5 + 4 * rim.segment) * PERIOD.cell_area
+    open_area = (0.5 + 4 * rim.extent.segment) * PERIOD.cell_area
     assert rim.area == close_to(PERIOD.area - open_area, rel=1e-12)
     assert (rim.length, rim.width) == PERIOD.size
 

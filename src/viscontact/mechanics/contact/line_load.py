@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Floats
+from viscontact.backend.team import Team
 from viscontact.bodies.grid import Grid
 
 #: Length of the means whose largest counts, as a part of the contact's. At a sharp end of the body
@@ -23,13 +24,15 @@ def line_load(pressure: Floats, grid: Grid) -> Floats:
     return np.asarray(pressure.sum(axis=1) * grid.cell_size[1])
 
 
-def peak_line_load(load: Floats, grid: Grid, length: float) -> float:
+def peak_line_load(load: Floats, grid: Grid, length: float, team: Team | None = None) -> float:
     """Largest mean line load over a twentieth of the contact's `length` [m] along x [N/m]."""
     window = PART * length / grid.cell_size[0]  # in cells
     if not (load.any() and window > 0):
         return float(load.max())
     if grid.periodic[0]:
         load = np.append(load, load[: int(np.ceil(window))])
+    if team is not None and team.core is not None:
+        return float(team.core.largest_mean(load, window))
     edges = np.arange(len(load) + 1)
     before = np.append(0.0, np.cumsum(load))
     # A mean is largest where the window begins or ends with a row.

@@ -72,12 +72,12 @@ class Constraints:
     @cached_property
     def free(self) -> Bools:
         """The motions that the balances determine."""
-        return np.array([resultant is not None for resultant in self.resultants])
+        return np.array(self.free_motions)
 
     @cached_property
     def free_motions(self) -> tuple[bool, bool, bool]:
         """The same as plain numbers."""
-        approach, tilt_x, tilt_y = self.free.tolist()
+        approach, tilt_x, tilt_y = (resultant is not None for resultant in self.resultants)
         return approach, tilt_x, tilt_y
 
     @cached_property
@@ -87,13 +87,20 @@ class Constraints:
 
     def with_prescribed(self, motion: Floats) -> Floats:
         """A motion with its prescribed components set."""
-        return np.where(self.free, motion, np.array(self.motions))
+        choices = zip(self.free_motions, motion.tolist(), self.motions, strict=True)
+        return np.array([own if is_free else given for is_free, own, given in choices])
 
     def imbalance(self, sums: Floats, arm: float) -> float:
         """Largest error of `sums` [N, N m, N m] over the force or target; `arm` in [m]."""
-        force = max(abs(self.targets[0]), abs(float(sums[0])), LEAST_FORCE)
-        error = (sums - self.targets) / (force * np.array([1.0, arm, arm]))
-        return float(np.abs(error[self.free]).max(initial=0.0))
+        found, targets = sums.tolist(), [each or 0.0 for each in self.resultants]
+        force = max(abs(targets[0]), abs(found[0]), LEAST_FORCE)
+        errors = [
+            abs(found[k] - targets[k]) / (force * (arm if k else 1.0))
+            for k, is_free in enumerate(self.free_motions)
+            if is_free
+        ]
+        # Not Python's `max`, which may pass over NaN.
+        return math.nan if any(map(math.isnan, errors)) else max(errors, default=0.0)
 
 
 class RigidPlane:

@@ -33,9 +33,11 @@ SEGMENTS = 1 / 6
 SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
 
 
-class _Extents(NamedTuple):
-    """Extents of a contact, and the lines of cells that it touches."""
+class Extent(NamedTuple):
+    """Extent of a contact, and the lines of cells that it touches."""
 
+    segment: float  # area between the rim and its chords per quarter turn [cells]
+    squares: float  # area between the crossings, in squares between four neighbouring centres
     along_x: float  # [cells]
     along_y: float
     rows: int
@@ -57,27 +59,26 @@ class Rim:
     along_y: Floats
     rows: Integers  # position of the block in the grid
     columns: Integers
-    segment: float  # area between rim and chords per quarter turn [cells]
-    team: Team
+    extent: Extent
 
     @property
     def area(self) -> float:
         """Area enclosed by the polygons through the crossings [m²]."""
-        return self.grid.cell_area * _enclosed_squares(self)
+        return self.grid.cell_area * self.extent.squares
 
     @cached_property
     def length(self) -> float:
         """Extent of the contact along x, at most a period where that is finite [m]."""
         if len(self.rows) > self.grid.shape[0]:
             return self.grid.size[0]
-        return min(self._extents.along_x * self.grid.cell_size[0], self.grid.size[0])
+        return min(self.extent.along_x * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
     def width(self) -> float:
         """Extent of the contact along y, at most a period where that is finite [m]."""
         if len(self.columns) > self.grid.shape[1]:
             return self.grid.size[1]
-        return min(self._extents.along_y * self.grid.cell_size[1], self.grid.size[1])
+        return min(self.extent.along_y * self.grid.cell_size[1], self.grid.size[1])
 
     @cached_property
     def breadth(self) -> float:
@@ -86,22 +87,13 @@ class Rim:
         ended = [own for own, whole in zip(extents, self.grid.size, strict=True) if own < whole]
         return min(ended or extents)
 
-    @cached_property
-    def _extents(self) -> _Extents:
-        if (core := self.team.core) is not None:
-            return _Extents(*core.rim_extents(self.contact, self.along_x, self.along_y))
-        rows, columns = (np.flatnonzero(self.contact.any(axis=axis)) for axis in (1, 0))
-        along_x = _extent(rows, self.contact, self.along_x)
-        along_y = _extent(columns, self.contact.T, self.along_y.T)
-        return _Extents(along_x, along_y, len(rows), len(columns))
-
     @property
     def cells_across(self) -> int:
         """Rows or columns of cells that have contact, the fewer of the two."""
         # An axis along which the contact continues through the whole period does not count; without
         # any other, it is the number of cells of the grid.
         lines, counts = (self.rows, self.columns), self.grid.shape
-        touched = self._extents.rows, self._extents.columns
+        touched = self.extent.rows, self.extent.columns
         ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
         return min(touched[k] for k in ends) if ends else max(counts)
 
@@ -154,8 +146,12 @@ def trace_rim(
         np.arange(block.start, block.start + count)
         for block, count in zip((rows, columns), contact.shape, strict=True)
     )
-    segment = _segment_of(_chords(contact, team), contact, gap)
-    return Rim(grid, contact, along_x, along_y, first, second, segment, team)
+    if team.core is not None:
+        segment = team.core.segment(contact, gap, (SEGMENTS, SEGMENT_LOSS, LEAST_SEGMENTS))
+    else:
+        segment = _segment_of(mean_chords(contact), contact, gap)
+    extent = _extent_of(contact, (along_x, along_y), segment, team)
+    return Rim(grid, contact, along_x, along_y, first, second, extent)
 
 
 def _with_open_lines(span: slice) -> slice:
@@ -190,7 +186,8 @@ def _trace_around(
     inner = inner_rows, inner_columns
     along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
     crossings = along_x[inner], along_y[inner]
-    return Rim(grid, contact[inner], *crossings, rows, columns, segment, team)
+    extent = _extent_of(contact[inner], crossings, segment, team)
+    return Rim(grid, contact[inner], *crossings, rows, columns, extent)
 
 
 def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
@@ -223,14 +220,6 @@ def _with_margin(lines: Integers, count: int) -> Integers:
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 
 
-def _chords(contact: Bools, team: Team) -> Floats:
-    """Mean chords of a contact that no period continues."""
-    if team.core is None:
-        return mean_chords(contact)
-    cells, along_x, along_y = team.core.chords(contact)
-    return np.array([cells / max(along_x, 1), cells / max(along_y, 1)])
-
-
 def _segment_of(chords: Floats, contact: Bools, gap: Floats) -> float:
     """Area between the rim and its chords per quarter turn, less the error of the crossings."""
     along_x, along_y = chords.tolist()
@@ -248,15 +237,25 @@ def _segment_of(chords: Floats, contact: Bools, gap: Floats) -> float:
     return SEGMENTS * (1 - by_gap * min(loss, 1 - LEAST_SEGMENTS))
 
 
-def _enclosed_squares(rim: Rim) -> float:
+def _extent_of(
+    contact: Bools, crossings: tuple[Floats, Floats], segment: float, team: Team
+) -> Extent:
+    """Extent of a contact by the crossings of its rim along x and y."""
+    if team.core is not None:
+        return Extent(segment, *team.core.measure_rim(contact, *crossings, segment))
+    rows, columns = (np.flatnonzero(contact.any(axis=axis)) for axis in (1, 0))
+    along_x = _along_first(rows, contact, crossings[0])
+    along_y = _along_first(columns, contact.T, crossings[1].T)
+    squares = _enclosed_squares(contact, crossings, segment)
+    return Extent(segment, squares, along_x, along_y, len(rows), len(columns))
+
+
+def _enclosed_squares(inside: Bools, crossings: tuple[Floats, Floats], segment: float) -> float:
     """Squares between four neighbouring centres, each counted by its enclosed part."""
-    if (core := rim.team.core) is not None:
-        return float(core.enclosed_squares(rim.contact, rim.along_x, rim.along_y, rim.segment))
-    inside = rim.contact
     pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
     count = pairs[:, 1:] + pairs[:, :-1]
     i, j = places((count & 3) != 0)  # neither none nor all four
-    along_x, along_y = rim.along_x, rim.along_y
+    along_x, along_y = crossings
     edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
     edges[np.isnan(edges)] = 0.0  # no crossing
     u, v = edges[0] + edges[1], edges[2] + edges[3]
@@ -264,7 +263,7 @@ def _enclosed_squares(rim: Rim) -> float:
     # edges that leave their side. Three: the square without a triangle. Signed areas where a
     # crossing lies beyond the square: their sum is that of the polygons.
     corners = count[i, j]
-    triangle, rest = u * v / 2 + rim.segment, 1 - (1 - u) * (1 - v) / 2 - rim.segment
+    triangle, rest = u * v / 2 + segment, 1 - (1 - u) * (1 - v) / 2 - segment
     enclosed = np.choose(corners - 1, [triangle, (u + v) / 2, rest])
     # Opposite corners inside: two separate triangles.
     first = inside[i, j]
@@ -272,11 +271,11 @@ def _enclosed_squares(rim: Rim) -> float:
     if apart.size:
         left, right, lower, upper = edges[:, apart]
         ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
-        enclosed[apart] = ends / 2 + 2 * rim.segment
+        enclosed[apart] = ends / 2 + 2 * segment
     return float(np.count_nonzero(count == 4) + enclosed.sum())
 
 
-def _extent(touched: Integers, contact: Bools, crossings: Floats) -> float:
+def _along_first(touched: Integers, contact: Bools, crossings: Floats) -> float:
     """Extent along the first axis, in cells: the farthest crossings both ways of touched rows."""
     if not touched.size:
         return 0.0

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import Team
 from viscontact.bodies.loads import LoadHistory, LoadPoint
@@ -104,16 +104,17 @@ class TimeErrors:
         after a kink it is estimated from the change over it.
         """
         step = self._on_clock(step)
-        contact = values[0] > 0
-        if self._values is not None:
-            contact |= self._values[0] > 0
-        size = max(self._size, self._team.mean_change(contact, values[1]))
         level = max(self._level, self._load.level_of(point))
         if step.is_jump or self._values is None:
+            contact = values[0] > 0
+            if self._values is not None:
+                contact |= self._values[0] > 0
+            size = max(self._size, self._team.mean_change(contact, values[1]))
             return StepError(0.0, 0.0, size, level)
-        rate = self._rate_over(step, values[1], self._values[1])
-        travel = LARGEST_OVER_MEAN * step.duration * self._team.mean_change(contact, rate)
-        interpolation_error = self._interpolation_error(step, rate, contact, travel, response)
+        rate = np.empty(values[1].shape)
+        mean, speed, turn = self._change_over(step, values, self._values, rate)
+        size, travel = max(self._size, mean), LARGEST_OVER_MEAN * step.duration * speed
+        interpolation_error = self._interpolation_error(step, turn, travel, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
         relative = 0.0
@@ -189,16 +190,15 @@ class TimeErrors:
     def _interpolation_error(
         self,
         step: TimeStep,
-        rate: Floats,
-        contact: Bools,
+        turn: float | None,
         travel: float,
         response: HereditaryResponse,
     ) -> float:
         """Interpolation error of a step from second differences of unit displacements [Pa m]."""
         late = response.held * travel / 2
-        if not step.smooth or self._rate is None:
+        if not step.smooth or turn is None:
             return max(late, ISOLATED_STEP_SHARE * travel)
-        change = LARGEST_OVER_MEAN * self._team.mean_change(contact, rate, self._rate)
+        change = LARGEST_OVER_MEAN * turn
         curvature = 2 * change / (step.duration + self._durations[-1])
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
@@ -231,7 +231,18 @@ class TimeErrors:
         self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
         self._term_errors += step.new * self._pressure_error
 
-    def _rate_over(self, step: TimeStep, value: Floats, before: Floats) -> Floats:
-        """Mean rate of a field over a step."""
-        each = 1 / step.duration
-        return self._team.weighted_sum(np.empty(value.shape), (each, -each), (value, before))
+    def _change_over(
+        self, step: TimeStep, values: Floats, before: Floats, rate: Floats
+    ) -> tuple[float, float, float | None]:
+        """Means over the contact of unit displacement, rate, and change of the rate if known."""
+        pairs = values[0], before[0], values[1], before[1]
+        if (core := self._team.core) is not None:
+            given = step.duration, self._rate, rate, self._team.threads
+            mean, speed, turn = core.step_change(*pairs, *given)
+            return mean, speed, None if self._rate is None else turn
+        contact, each = (pairs[0] > 0) | (pairs[1] > 0), 1 / step.duration
+        self._team.weighted_sum(rate, (each, -each), pairs[2:])
+        means = [self._team.mean_change(contact, field) for field in (values[1], rate)]
+        if self._rate is None:
+            return means[0], means[1], None
+        return means[0], means[1], self._team.mean_change(contact, rate, self._rate)

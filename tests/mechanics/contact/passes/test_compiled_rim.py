@@ -65,7 +65,7 @@ def test_crossings_area_and_extents(
     assert found.length == close_to(expected.length, 1e-9, abs=least)
     assert found.width == close_to(expected.width, 1e-9, abs=least)
     assert found.cells_across == expected.cells_across
-    assert found.segment == close_to(expected.segment, 1e-14)
+    assert found.extent.segment == close_to(expected.extent.segment, 1e-14)
 
 
 @given(seeds, cells, st.sampled_from([0.0, 0.05]))
