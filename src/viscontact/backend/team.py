@@ -62,6 +62,21 @@ class Team:
         found = [share(0), *(other.result() for other in others)]
         return [found[place % shares][place // shares] for place in range(len(blocks))]
 
+    def each_rows(
+        self, work: Callable[..., object], blocks: Sequence[slice], *fields: Numbers
+    ) -> None:
+        """Work on blocks of rows of some fields; `work` takes the same rows of each.
+
+        >>> total = np.zeros((2, 2))
+        >>> Team().each_rows(np.copyto, [slice(1), slice(1, 2)], total, np.eye(2))
+        >>> total.tolist()
+        [[1.0, 0.0], [0.0, 1.0]]
+        """
+        if len(blocks) == 1:
+            work(*fields)
+            return
+        self.each(lambda rows: work(*(field[rows] for field in fields)), blocks)
+
     def each_part(self, work: Callable[..., object], *fields: Numbers) -> None:
         """Work on fields of one shape part by part; `work` takes the same part of each.
 
@@ -128,11 +143,12 @@ class Team:
         [[2.0, 1.0, 1.0, 2.0]]
         """
         if self.core is not None and any(mirrored):
-            unfold = self.core.unfold_flags if field.dtype == bool else self.core.unfold
-            field = np.ascontiguousarray(field, bool if field.dtype == bool else np.float64)
-            shape = [count * (1 + even) for count, even in zip(field.shape, mirrored, strict=True)]
-            whole = np.empty(shape, field.dtype)
-            unfold(field, whole)
+            (rows, columns), (along_x, along_y) = field.shape, mirrored
+            is_flags = field.dtype == bool
+            if not field.flags.c_contiguous or not (is_flags or field.dtype == np.float64):
+                field = np.ascontiguousarray(field, bool if is_flags else np.float64)
+            whole = np.empty((rows * (1 + along_x), columns * (1 + along_y)), field.dtype)
+            (self.core.unfold_flags if is_flags else self.core.unfold)(field, whole)
             return whole
         for axis in (0, 1):
             if mirrored[axis]:
@@ -157,18 +173,24 @@ class Team:
         return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
 
 
-def order_of(parts: Sequence[Numbers], number: np.dtype[Any], team: Team) -> float:
-    """Return the factor to divide a field, given in parts, by before it is stored as `number`.
+def order_of(
+    field: Numbers, blocks: Sequence[slice], number: np.dtype[Any], team: Team, axis: int = 0
+) -> float:
+    """Return the factor to divide a field by before it is stored as `number`.
 
-    In single precision, with its few exponents, that is its largest value; else 1.
+    In single precision, with its few exponents, that is its largest value; else 1. It is looked for
+    in blocks of the field's lines along an axis.
 
     Examples
     --------
-    >>> order_of([np.array([1e-99]), np.array([-4e-99])], np.dtype(np.float32), Team())
+    >>> order_of(np.array([[1e-99, -4e-99]]), [slice(1)], np.dtype(np.float32), Team())
     4e-99
     """
-    if number == parts[0].dtype:
+    if number == field.dtype:
         return 1.0
+    if len(blocks) == 1:
+        return largest_of(field) or 1.0
+    parts = [field[lines] if axis == 0 else field[:, lines] for lines in blocks]
     return max(team.each(largest_of, parts)) or 1.0
 
 
@@ -177,6 +199,8 @@ class Workspace:
 
     def __init__(self) -> None:
         self._bytes = np.empty(0, np.uint8)
+        #: Arrays that have been asked for, in this memory.
+        self._arrays: dict[tuple[tuple[tuple[int, ...], np.dtype[Any]], ...], list[Numbers]] = {}
 
     def array(self, shape: tuple[int, ...], kind: np.dtype[Any]) -> Numbers:
         """Return an array without particular values, valid until the next call."""
@@ -184,9 +208,15 @@ class Workspace:
 
     def arrays(self, *wanted: tuple[tuple[int, ...], np.dtype[Any]]) -> list[Numbers]:
         """Return arrays of shapes and kinds, beside each other, valid until the next call."""
+        if wanted not in self._arrays:
+            self._arrays[wanted] = self._made(wanted)
+        return self._arrays[wanted]
+
+    def _made(self, wanted: tuple[tuple[tuple[int, ...], np.dtype[Any]], ...]) -> list[Numbers]:
         sizes = [math.prod(shape) * kind.itemsize for shape, kind in wanted]
         *begins, end = itertools.accumulate((size + -size % ALIGNMENT for size in sizes), initial=0)
         if end > len(self._bytes):
+            self._arrays.clear()
             self._bytes = np.empty(0, np.uint8)  # freed before the larger one is made
             self._bytes = np.empty(end, np.uint8)
         return [

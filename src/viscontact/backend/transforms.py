@@ -299,7 +299,7 @@ def multiply_by_even(spectrum: Field, symbol: Numbers, axis: int) -> None:
     >>> multiply_by_even(spectrum, np.array([[1.0, 2.0, 3.0]]), axis=1); spectrum.tolist()
     [[1.0, 2.0, 3.0, 2.0]]
     """
-    rows_alike = all(each.strides[1] == each.itemsize for each in (spectrum, symbol))
+    rows_alike = spectrum.strides[1] == spectrum.itemsize and symbol.strides[1] == symbol.itemsize
     if compiled.core and rows_alike and (spectrum.dtype, symbol.dtype) in _COMPILED:
         compiled.core.filter(spectrum, symbol, axis)
         return

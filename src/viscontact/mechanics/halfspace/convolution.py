@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import copy
 from functools import partial
-from typing import Self, TypeAlias
+from typing import NamedTuple, Self, TypeAlias
 
 import numpy as np
 
@@ -23,8 +23,16 @@ from viscontact.backend.transforms import (
 )
 from viscontact.mechanics.halfspace.kernel_spectrum import kernel_spectrum, padded_length
 
-#: Work on a block of lines, in a workspace of its own.
-_Work: TypeAlias = Callable[[slice, Numbers], None]
+#: Work on a block of lines by a thread of that number.
+_Work: TypeAlias = Callable[[slice, int], None]
+
+
+class _PaddedLines(NamedTuple):
+    """Lines that are longer than their data, and both parts of them."""
+
+    whole: Numbers
+    data: Numbers
+    rest: Numbers
 
 
 class Convolution:
@@ -83,6 +91,8 @@ class Convolution:
             )
             for _ in range(transforms.threads)
         ]
+        #: Parts of these, by thread, axis and number of lines.
+        self._kept: dict[tuple[int, int, int], _PaddedLines] = {}
         is_one_block = len(self._lines) == len(self._waves) == 1
         # Threads share the blocks out, or else the lines of the only one.
         self._transforms = transforms if is_one_block else transforms_by(transforms.name)
@@ -104,79 +114,77 @@ class Convolution:
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
-        parts = [_part(pressure, self._second, lines) for lines in self._lines]
-        size = order_of(parts, self._number, self._team)
+        size = order_of(pressure, self._lines, self._number, self._team, self._second)
         half = self._half_spectrum()
-        self._for_each_block(self._lines, 0, partial(self._transform, pressure, size, half))
-        self._for_each_block(self._waves, 1, partial(self._multiply, half))
-        self._for_each_block(self._lines, 0, partial(self._transform_back, result, size, half))
+        self._for_each_block(self._lines, partial(self._transform, pressure, size, half))
+        self._for_each_block(self._waves, partial(self._multiply, half))
+        self._for_each_block(self._lines, partial(self._transform_back, result, size, half))
         return result
 
     def _half_spectrum(self) -> Numbers:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""
         if len(self._waves) == 1:
-            return _part(self._padded[0][1], self._second, slice(self.shape[self._second]))
+            return self._padded_lines(0, 1, self._waves[0].stop).data
         return self._workspace.array(*self._half) if self._workspace else np.empty(*self._half)
 
-    def _for_each_block(self, blocks: Sequence[slice], axis: int, work: _Work) -> None:
+    def _for_each_block(self, blocks: Sequence[slice], work: _Work) -> None:
         """Work on all blocks; with several threads, each takes every so many of them."""
         threads = min(len(blocks), len(self._padded))
         if threads == 1:
             for block in blocks:
-                work(block, self._padded[0][axis])
+                work(block, 0)
             return
 
         def share(thread: int) -> None:
             for block in blocks[thread::threads]:
-                work(block, self._padded[thread][axis])
+                work(block, thread)
 
         self._team.each(share, range(threads))
 
+    def _padded_lines(self, thread: int, axis: int, count: int) -> _PaddedLines:
+        """A number of a thread's padded lines along the first (0) or the second axis."""
+        key = thread, axis, count
+        if key not in self._kept:
+            along, across = (self._first, self._second)[:: 1 - 2 * axis]
+            whole = _part(self._padded[thread][axis], across, slice(count))
+            cells = self.shape[along]
+            parts = (_part(whole, along, part) for part in (slice(cells), slice(cells, None)))
+            self._kept[key] = _PaddedLines(whole, *parts)
+        return self._kept[key]
+
     def _transform(
-        self,
-        pressure: Field,
-        size: float,
-        half: Numbers,
-        lines: slice,
-        padded: Numbers,
+        self, pressure: Field, size: float, half: Numbers, lines: slice, thread: int
     ) -> None:
         """Transform lines of the pressure along the first axis."""
         first, second, transforms = self._first, self._second, self._transforms
-        padded = _part(padded, second, slice(lines.stop - lines.start))
-        cells = self.shape[first]
-        fill_of_order(size, _part(padded, first, slice(cells)), _part(pressure, second, lines))
-        _part(padded, first, slice(cells, None))[...] = 0
+        padded = self._padded_lines(thread, 0, lines.stop - lines.start)
+        fill_of_order(size, padded.data, _part(pressure, second, lines))
+        padded.rest[...] = 0
         spectrum = _part(half, second, lines)
         if self._even[first]:
-            spectrum[...] = transforms.cosine_forward(padded, first)
+            spectrum[...] = transforms.cosine_forward(padded.whole, first)
         else:
-            transforms.real_forward(padded, spectrum, first)
+            transforms.real_forward(padded.whole, spectrum, first)
 
-    def _multiply(self, half: Numbers, waves: slice, padded: Numbers) -> None:
+    def _multiply(self, half: Numbers, waves: slice, thread: int) -> None:
         """Transform waves along the second axis, multiply them by the symbol, transform back."""
         first, second, transforms = self._first, self._second, self._transforms
         spectrum = _part(half, first, waves)
-        padded = _part(padded, first, slice(waves.stop - waves.start))
-        data = _part(padded, second, slice(self.shape[second]))
+        lines = self._padded_lines(thread, 1, waves.stop - waves.start)
         apart = len(self._waves) > 1
         if apart:
-            data[...] = spectrum
-        _part(padded, second, slice(self.shape[second], None))[...] = 0
-        padded = self._along_second(transforms.cosine_forward, transforms.complex_forward, padded)
-        symbol = _part(self._symbol, first, waves)
-        multiply_by_even(padded, symbol, second)
-        padded = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, padded)
-        found = _part(padded, second, slice(self.shape[second]))
-        if apart or not np.may_share_memory(found, spectrum):
-            spectrum[...] = found
+            lines.data[...] = spectrum
+        lines.rest[...] = 0
+        given = lines.whole
+        found = self._along_second(transforms.cosine_forward, transforms.complex_forward, given)
+        multiply_by_even(found, _part(self._symbol, first, waves), second)
+        found = self._along_second(transforms.cosine_inverse, transforms.complex_inverse, found)
+        if not apart and (found is given or np.may_share_memory(found, spectrum)):
+            return  # in place
+        spectrum[...] = _part(found, second, slice(self.shape[second]))
 
     def _transform_back(
-        self,
-        result: Field,
-        size: float,
-        half: Numbers,
-        lines: slice,
-        padded: Numbers,
+        self, result: Field, size: float, half: Numbers, lines: slice, thread: int
     ) -> None:
         """Transform lines back along the first axis, into the result."""
         first, second, transforms = self._first, self._second, self._transforms
@@ -184,7 +192,7 @@ class Convolution:
         if self._even[first]:
             moved = transforms.cosine_inverse(spectrum, first)
         else:
-            padded = _part(padded, second, slice(lines.stop - lines.start))
+            padded = self._padded_lines(thread, 0, lines.stop - lines.start).whole
             moved = transforms.real_inverse(spectrum, padded, first)
         moved = _part(moved, first, slice(self.shape[first]))
         restore_of_order(size, moved, _part(result, second, lines))

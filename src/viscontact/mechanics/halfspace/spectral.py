@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
+from functools import partial
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -117,6 +118,9 @@ class MovingPeriodicConvolution(PeriodicConvolution):
         self._symbol = symbol.astype(np.complex64 if single else np.complex128)
 
 
+_multiply_rows = partial(multiply_by_even, axis=1)
+
+
 class Spectra:
     """Transforms of a block that is periodic, or even across its first line (`mirrored`)."""
 
@@ -157,18 +161,15 @@ class Spectra:
         into: Field | None = None,
     ) -> Field:
         """Field whose spectrum is that of the given field times a symbol."""
-        rows = self._rows
-        size = order_of([field[each] for each in rows], self._number, self._team)
+        rows, team = self._rows, self._team
+        size = order_of(field, rows, self._number, team)
         block, spectrum = self._workspace.arrays((self._shape, self._number), self._spectrum)
-        self._team.each(lambda here: fill_of_order(size, block[here], field[here]), rows)
+        team.each_rows(partial(fill_of_order, size), rows, block, field)
         spectrum = self._transform(block, spectrum)
-        self._team.each(
-            lambda here: multiply_by_even(spectrum[here], symbol[here], 1),
-            self._wave_rows,
-        )
+        team.each_rows(_multiply_rows, self._wave_rows, spectrum, symbol)
         back = self._transform_back(spectrum, block)
         found = np.empty(self._shape) if into is None else into
-        self._team.each(lambda here: restore_of_order(size, back[here], found[here]), rows)
+        team.each_rows(partial(restore_of_order, size), rows, back, found)
         return found
 
     def factor_along(self, axis: int, factor: WaveFactor) -> Complexes:
