@@ -121,6 +121,11 @@ class ApproachHistory(PiecewiseHistory):
         """Return the approach at many instants [m]; as `approach_at`."""
         return self.approach_at(times, side=side)
 
+    def _level(self, time: float, side: str) -> float:
+        if self._reached(time, side) == 0:
+            return min(float(self.approach[0]), 0.0)
+        return self._value_at(self.approach, time, side)
+
     @cached_property
     def touches(self) -> Floats:
         """Instants between kinks at which the approach rises through 0, without given tilts [s].

@@ -123,6 +123,12 @@ class ForceHistory(PiecewiseHistory):
         """Return the force at many instants [N]; as `force_at`."""
         return self.force_at(times, side=side)
 
+    def _level(self, time: float, side: str) -> float:
+        if self._reached(time, side) == 0:
+            return 0.0
+        force = self._value_at(self.force, time, side)
+        return force if abs(force) >= NEGLIGIBLE * self._largest_size else 0.0
+
     @cached_property
     def _largest_size(self) -> float:
         return float(np.abs(self.force).max())

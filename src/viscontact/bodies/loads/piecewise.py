@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from abc import abstractmethod
 from bisect import bisect_left, bisect_right
 from dataclasses import fields
 from functools import cached_property
@@ -56,13 +57,16 @@ class PiecewiseHistory(LoadHistory):
         >>> ApproachHistory([0, 2], [0, 1e-5]).at(1.0).approach
         5e-06
         """
-        instant = np.asarray(finite("time", time, "s"))
-        level = float(self.level_at(instant, side=side))
-        values: dict[str, Any] = {"force": None, self.control: level}
+        instant = finite("time", time, "s")
+        values: dict[str, Any] = {"force": None, self.control: self._level(instant, side)}
         for name in history_points.TAIL:
             of = getattr(self, name)
-            values[name] = None if of is None else float(self._interpolate(of, instant, side))
+            values[name] = None if of is None else self._value_at(of, instant, side)
         return LoadPoint(**values)
+
+    @abstractmethod
+    def _level(self, time: float, side: str) -> float:
+        """Force [N] or approach [m] at one instant [s], as of `level_at`, which takes longer."""
 
     @cached_property
     def kinks(self) -> Floats:
@@ -156,7 +160,7 @@ class PiecewiseHistory(LoadHistory):
         """Values at `times`, held before the first and after the last point."""
         if isinstance(values, float):
             return np.full(times.shape, values)
-        if times.ndim == 0:  # as below, in plain numbers
+        if times.ndim == 0:
             return np.asarray(self._value_at(values, float(times), side))
         reached = np.searchsorted(self.times, times, side=history_points.side_of_jump(side))
         i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
@@ -167,8 +171,10 @@ class PiecewiseHistory(LoadHistory):
         nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
         return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
 
-    def _value_at(self, values: Floats, time: float, side: str) -> float:
-        """A value at one time, as of `_interpolate`."""
+    def _value_at(self, values: float | Floats, time: float, side: str) -> float:
+        """A value at one time, as of `_interpolate`, in plain numbers."""
+        if isinstance(values, float):
+            return values
         reached = self._reached(time, side)
         i, j = max(reached - 1, 0), min(reached, self.times.size - 1)
         begin, end = self._instants[i], self._instants[j]

@@ -128,6 +128,8 @@ def warnings_of_covers(
     geometry: Geometry, rim: Rim, motion: Floats, cell_size: tuple[float, float]
 ) -> dict[str, str]:
     """Warn of large strains in covers, and of cells of a size (dx, dy) [m] too long for them."""
+    if not geometry.covers:
+        return {}
     has_datum = geometry.grid.has_datum or geometry.is_supported
     approach = local_approach(geometry.grid, motion) if has_datum else math.nan
     be, _ = geometry.verbs
@@ -237,7 +239,7 @@ def _lines_around(lines: Integers, distance: int, grid: Grid, axis: int) -> Inte
 
 def _steepest_slope(geometry: Geometry, rim: Rim, motion: Floats) -> float:
     """Steepest slope in contact; an upper bound where that is not steep."""
-    tilt = float(np.abs(motion[1:]).max())
+    tilt = max(abs(float(motion[1])), abs(float(motion[2])))
     if geometry.steepest + tilt <= STEEP_SLOPE:
         return geometry.steepest + tilt
     if tilt <= LITTLE_TILT and not (rim.cut(geometry.nearly_steep) & rim.contact).any():

@@ -61,10 +61,24 @@ class Sampling:
         found = [[*distances[:, ring].max(axis=1), gap[ring].min()] for ring in rings]
         return np.reshape(found, (-1, 3)).T
 
+    @cached_property
+    def _bounds(self) -> tuple[float, float, float]:
+        """Largest distances along x and y, and least gap, of all points beyond the grid [m]."""
+        far_x, far_y, least = self._rings
+        return (
+            float(far_x.max(initial=0.0)),
+            float(far_y.max(initial=0.0)),
+            float(least.min(initial=math.inf)),
+        )
+
     def reaches_beyond(self, motion: Floats, depth: float) -> bool:
         """True if the moved body lies deeper than a depth [m] at a point outside the grid."""
+        # Called at every step; nearly always no ring comes close, and no point at all.
+        along_x, along_y, gap = self._bounds
+        approach, tilt_x, tilt_y = motion.tolist()
+        if approach + abs(tilt_x) * along_x + abs(tilt_y) * along_y - gap <= depth:
+            return False
         far_x, far_y, least = self._rings
-        # Called at every step; nearly always no ring comes close.
         deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least
         if (deepest <= depth).all():
             return False
@@ -94,6 +108,11 @@ class Sampling:
         cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
         np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
         return missed
+
+    @cached_property
+    def texture(self) -> dict[str, str]:
+        """Warnings of waves with too few cells."""
+        return texture_warnings(self.indenter, self.grid)
 
     @cached_property
     def sees_all(self) -> bool:
@@ -141,20 +160,24 @@ def sampling_warnings(
     extent = rim.breadth
     strain = 2 * local_approach(sampling.grid, motion) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
-    warnings = map_warnings(missed, cell, strain) | texture_warnings(
-        sampling.indenter, sampling.grid
-    )
+    warnings = map_warnings(missed, cell, strain) | sampling.texture
     free = [axis for axis, repeats in enumerate(sampling.grid.periodic) if not repeats]
     if not free:
         return warnings  # the neighbour is the next period, not the body
     # All pressure lies within the grid, so the displacement falls outwards from the grid's rim.
-    rim_displacement = max(displacement.take([0, -1], axis).max() for axis in free)
+    rim_displacement = max(float(_border(displacement, axis).max()) for axis in free)
     if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
         warnings["beyond"] = (
             "the body would touch outside the grid, too, where nothing is computed: the contact "
             "carries a part of the load only; enlarge grid.size"
         )
     return warnings
+
+
+def _border(field: Floats, axis: int) -> Floats:
+    """First and last line of a field across an axis, in its memory."""
+    ends = slice(None, None, max(field.shape[axis] - 1, 1))
+    return field[ends] if axis == 0 else field[:, ends]
 
 
 def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:

@@ -104,7 +104,7 @@ class FrictionalContact(Uncoupled):
         # A body that stands has no such result, and an elastic one loses nothing.
         if not self._moves or run.problem.surface.creep.is_elastic:
             return 0.0, 0.0
-        if not run.problem.has_datum(run.grid):
+        if not run.has_datum:
             return math.nan, math.nan
         track = self._domain.along(region, run.problem.motion.moves)
         heat, power = self._history.loss(traction, self._domain, track, step.time)

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.backend.team import Team
 from viscontact.backend.transforms import fast_length
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -24,11 +25,16 @@ FACTOR = 1.5
 FREE = MARGIN
 
 
-def overrun(in_contact: Bools, free: int = 1) -> tuple[bool, bool]:
+def overrun(in_contact: Bools, free: int = 1, team: Team | None = None) -> tuple[bool, bool]:
     """True for x and for y if contact has reached the `free` outermost cells of a side."""
-    both = (slice(0, free), slice(-free, None))
-    along = any(bool(in_contact[ends, :].any()) for ends in both)
-    return along, any(bool(in_contact[:, ends].any()) for ends in both)
+    spans = (team or Team()).spans(in_contact)
+    if spans is None:
+        return False, False
+    along, across = (
+        lines.start < free or lines.stop > count - free
+        for lines, count in zip(spans, in_contact.shape, strict=True)
+    )
+    return along, across
 
 
 def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.errors import ConvergenceError, DomainError
+from viscontact.backend.team import Team
 from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics import time_integration
@@ -132,7 +133,8 @@ class March:
         """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
         if not self._run.grows:
             return False
-        reached = overrun(self._domain.expand_by_symmetry(trial.solution.in_contact), FREE)
+        in_contact = self._domain.expand_by_symmetry(trial.solution.in_contact)
+        reached = overrun(in_contact, FREE, self._domain.team)
         along_x, along_y = self._run.grid.periodic  # a period has no rim
         over = reached[0] and not along_x, reached[1] and not along_y
         if not any(over):
@@ -163,7 +165,7 @@ class March:
 
     def _complete_step(self, step: TimeStep, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
-        refuse_rim(self._run, step, solution)
+        refuse_rim(self._run, step, solution, self._domain.team)
         state = self._observer.evaluate(step, trial.point, solution)
         slip = self._friction.trial(step, solution, trial.joint)
         self._friction.accept(slip)
@@ -199,9 +201,11 @@ def domain_of(run: RunSetup) -> ContactDomain:
     )
 
 
-def refuse_rim(run: RunSetup, step: TimeStep, solution: StepSolution) -> None:
+def refuse_rim(
+    run: RunSetup, step: TimeStep, solution: StepSolution, team: Team | None = None
+) -> None:
     """Raise DomainError if the outermost cells are in contact."""
-    reached = zip(overrun(solution.in_contact), run.grid.periodic, strict=True)
+    reached = zip(overrun(solution.in_contact, team=team), run.grid.periodic, strict=True)
     if not any(over and not repeats for over, repeats in reached):
         return
     raise DomainError(

@@ -12,6 +12,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools
 from viscontact.backend.errors import DomainError
+from viscontact.backend.team import Team
 from viscontact.backend.transforms import largest_of
 from viscontact.bodies.grid import MIN_CELLS_ACROSS, Grid
 from viscontact.bodies.loads.history import LoadPoint
@@ -124,7 +125,7 @@ class Observer:
         # Cells in contact, and the rim within cells, from the gap beside them.
         rim = self._rim_of(solution)
         # Work since the step before, and the loss of a cycle that ends here.
-        has_datum = self._run.problem.has_datum(rim.grid)
+        has_datum = self._run.has_datum
         self._work += self._work_of(point, solution) if has_datum else math.nan
         moved: dict[str, Any] = self._motion.evaluate(step, solution)
         moved |= self._run.problem.clock_scalars(step.time)
@@ -137,7 +138,7 @@ class Observer:
         if self._warns:
             self._collect_warnings(step, solution, rim)
         totals = self._work, self._cycles.last_loss
-        state = _state(self._run, step, solution, rim, totals, moved)
+        state = _state(self._run, step, solution, rim, totals, moved, self._team)
         self._extents = self._extents.after(self._exceeded, state.contact_area, step.time)
         if self._events is not None:
             self._events.after(state)
@@ -291,13 +292,13 @@ class Observer:
         # Under a moving body the material is under load for less than the time of the run; its
         # response at once is the least that it can be.
         loaded = time - self._since if self._run.problem.motion.stands else 0.0
-        force, peak = float(solution.resultants[0]), float(solution.pressure.max())
+        force, peak = float(solution.resultants[0]), solution.peak
         if peak <= 0:  # pulled all over
             return {}
         contact = Contact(
             force / max(rim.area, force / peak),
             min(rim.length, rim.width) / 2,
-            float(solution.motion[0]) if self._run.problem.has_datum(rim.grid) else math.nan,
+            float(solution.motion[0]) if self._run.has_datum else math.nan,
             loaded,
             f"at t = {format_quantity(time, 's')}",
             peak,
@@ -308,7 +309,7 @@ class Observer:
 
     def _corner_warnings(self, time: float, solution: StepSolution) -> dict[str, str]:
         """Warn of a largest pressure at a corner, searched again only after the peak has grown."""
-        peak = float(solution.pressure.max())
+        peak = solution.peak
         if peak <= PEAK_CHECK_RATIO * self._peak_checked:
             return {}
         self._peak_checked = peak
@@ -359,19 +360,20 @@ def _state(
     rim: Rim,
     totals: tuple[float, float],
     moved: dict[str, Any],
+    team: Team,
 ) -> ContactState:
     """State of a solution: `totals` are the work and the loss of a cycle [J].
 
     `moved` are the scalars of motion, clocks and adhesion.
     """
-    adheres, has_datum = run.law is not None, run.problem.has_datum(rim.grid)
+    adheres, has_datum = run.law is not None, run.has_datum
     grown = run.problem.thickening_at(step.time)
     force = float(solution.resultants[0])
     touching = bool(solution.in_contact.any()) if adheres else force > 0
     eccentricity_x, eccentricity_y = (
         _eccentricities(solution, rim.grid, adheres=adheres) if touching else (math.nan,) * 2
     )
-    peak = max(float(solution.pressure.max()), 0.0)
+    peak = max(solution.peak, 0.0)
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak if peak > 0 else 0.0) if touching else 0.0
     load = line_load(solution.pressure, rim.grid)
@@ -394,7 +396,7 @@ def _state(
         contact_width=rim.width,
         peak_pressure=peak,
         mean_pressure=min(force / area, peak) if area > 0 else 0.0,  # rounded
-        peak_line_load=peak_line_load(load, rim.grid, rim.length),
+        peak_line_load=peak_line_load(load, rim.grid, rim.length, team),
         work=totals[0],
         loss_per_cycle=totals[1],
         time_error=solution.time_error,

@@ -122,6 +122,11 @@ class RunSetup:
         core_by(inner_loops)
         return replace(self, transforms=transforms, inner_loops=inner_loops)
 
+    @cached_property
+    def has_datum(self) -> bool:
+        """True if the approach has a datum on the grid."""
+        return self.problem.has_datum(self.grid)
+
     @property
     def team(self) -> Team:
         """Threads and inner loops that work on fields of the whole grid."""
@@ -129,11 +134,15 @@ class RunSetup:
 
     def position_at(self, time: float) -> tuple[float, float]:
         """Position of the body's axis at a time [m]."""
-        return _position(self.problem, time)
+        return self._start if self.problem.motion.stands else _position(self.problem, time)
+
+    @cached_property
+    def _start(self) -> tuple[float, float]:
+        return _position(self.problem, 0.0)
 
     def gap_at(self, time: float) -> Floats:
         """The indenter's gap on the grid at a time [m]."""
-        if self.position_at(time) == self.position_at(0.0):
+        if self.position_at(time) == self._start:
             return self.open_gap
         return _gap(self.indenter_at(time), self.grid)
 

@@ -23,7 +23,7 @@ def slip_scalars(
 ) -> dict[str, float]:
     """Scalars at the end of a step of a duration [s]."""
     # Without a datum displacements are not known.
-    grid, has_datum = run.grid, run.problem.has_datum(run.grid)
+    grid, has_datum = run.grid, run.has_datum
     motion = after.motion if has_datum else np.full(3, math.nan)
     stiffness = _stiffness(before, after) if has_datum else (math.nan, math.nan)
     sticks, touches = np.count_nonzero(step.state == 1), np.count_nonzero(step.state)

@@ -20,6 +20,7 @@ class StepSolution:
     in_contact: Bools
     reference: Floats  # ∫ J dp [-] and its displacement [m] on the computed cells, (2, mx, my)
     motion: Floats  # approach [m], tilts [rad]
+    peak: float  # largest pressure [Pa]
     resultants: Floats  # force [N], moments about the origin [N m]
     energy: float  # elastic, on a half-space of unit compliance [J Pa]
     residual: float  # relative violation of the contact conditions [-]

@@ -118,7 +118,9 @@ class Stepper:
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
         self._history = SurfaceHistory(run, domain)
         first = run.hereditary
-        self._force_memory = InternalVariables(first.prony_approximation, (1,), clock=first.clock)
+        self._force_memory = InternalVariables(
+            first.prony_approximation, (1,), team=domain.team, clock=first.clock
+        )
         self._creeping = run.problem.surface.most_creeping  # term whose time error is estimated
         self._errors = TimeErrors(run.plans[self._creeping], run.problem.contact_load, domain.team)
         self._scale = 1e-12 * max(run.grid.cell_size)
@@ -265,7 +267,7 @@ class Stepper:
         """Heat [J] of a step and power [W] lost at its end; NaN if unknown."""
         run = self._run
         # Without a datum, part of it is lost by the approach.
-        if run.problem.motion.stands or not run.problem.has_datum(run.grid):
+        if run.problem.motion.stands or not run.has_datum:
             return math.nan, math.nan
         lost = self._history.loss(pairs)
         if lost is None:
@@ -318,9 +320,10 @@ class Stepper:
         if point.force == 0:
             touched = self._first_touch(step, problem, untouched=response.is_untouched)
             return touched, Outcome.NO_CONTACT, None
-        given = problem.constraints.with_prescribed(self._motion)
-        if point.force is None and self._is_separated(problem, given):
-            return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
+        if point.force is None:
+            given = problem.constraints.with_prescribed(self._motion)
+            if self._is_separated(problem, given):
+                return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
         tolerance = self._run.problem.tolerance
         solution, joint = self._friction.equilibrium(
             step, problem, self._domain, posed.guess, tolerance
@@ -330,7 +333,7 @@ class Stepper:
         if solution.in_contact.any():
             return solution, Outcome.CONVERGED, joint
         # A body that can tilt has turned away: from its last tilts no farther than it must.
-        plane = self._domain.whole.plane
+        plane, given = self._domain.whole.plane, problem.constraints.with_prescribed(self._motion)
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
         return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
 
@@ -449,7 +452,8 @@ def _on_full_grid(
         in_contact=in_contact,
         reference=reference,
         motion=found.motion,
-        resultants=domain.whole.plane.sums(found.pressure) * cell_area,
+        peak=float(found.pressure.max()),
+        resultants=domain.whole.passes.sums(found.pressure) * cell_area,
         energy=energy * cell_area,
         residual=solution.residual,
         iterations=solution.iterations,

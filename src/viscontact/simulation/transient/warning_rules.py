@@ -126,7 +126,7 @@ def loading_warnings(
         return contact_change_warnings(run.problem, step, touched=touched, touches=touches)
     if after.resolved:
         return {}
-    peaks = [float(end.pressure.max()) for end in (before, after)]
+    peaks = [end.peak for end in (before, after)]
     forces = [float(end.pressure.sum()) * run.grid.cell_area for end in (before, after)]
     return step_warnings(step.duration, max(relative_change(*peaks), relative_change(*forces)))
 
