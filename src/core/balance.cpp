@@ -107,6 +107,24 @@ Weighed weighed(const Plane &plane, const Doubles &pressure, const Motion &facto
 
 }  // namespace
 
+std::array<double, 2> weigh(const Plane &plane, const Doubles &pressure, const Motion &targets,
+                            const Free &free, double cell_area, double arm) {
+    const auto parts = plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        double least = BEYOND;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+            const double *row = pressure.row(i);
+#pragma omp simd reduction(min : least)
+            for (std::ptrdiff_t j = 0; j < pressure.columns; ++j)
+                least = row[j] < least ? row[j] : least;
+        }
+        return least;
+    });
+    Motion resultants = sums(plane, pressure);
+    for (double &each : resultants) each *= cell_area;
+    return {*std::min_element(parts.begin(), parts.end()),
+            imbalance(resultants, targets, free, arm)};
+}
+
 bool balance(const Plane &plane, const Doubles &pressure, const Motion &targets, const Free &free,
              double cell_area, double arm) {
     const Weighed found = weighed(plane, pressure, {1, 0, 0});

@@ -55,6 +55,10 @@ bool trial(const Plane &plane, const Doubles &pressure, const Singles &direction
 bool balance(const Plane &plane, const Doubles &pressure, const Motion &targets, const Free &free,
              double cell_area, double arm);
 
+// Least pressure and imbalance of a pressure, in that order.
+std::array<double, 2> weigh(const Plane &plane, const Doubles &pressure, const Motion &targets,
+                            const Free &free, double cell_area, double arm);
+
 double imbalance(const Motion &sums, const Motion &targets, const Free &free, double arm);
 
 void difference(const Plane &plane, const Doubles &ahead, const Doubles &pressure, double scale,

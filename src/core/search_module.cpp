@@ -109,6 +109,13 @@ void define_search(nb::module_ &module) {
                return viscontact::balance(plane, field(plane, pressure), motion(targets),
                                           free_of(free), cell_area, arm);
            });
+    define(module, "weigh",
+           [](const Plane &plane, Array<const double> pressure, Triple targets, FreeTriple free,
+              double cell_area, double arm) {
+               const auto found = viscontact::weigh(plane, field(plane, pressure), motion(targets),
+                                                    free_of(free), cell_area, arm);
+               return std::tuple(found[0], found[1]);
+           });
     define(module, "difference",
            [](const Plane &plane, Array<const double> ahead, Array<const double> pressure,
               double scale, Array<float> step) {

@@ -96,6 +96,15 @@ def balance(
     arm: float,
     /,
 ) -> bool: ...
+def weigh(
+    plane: Plane,
+    pressure: Floats,
+    targets: Triple,
+    free: Free,
+    cell_area: float,
+    arm: float,
+    /,
+) -> tuple[float, float]: ...
 def difference(
     plane: Plane, ahead: Floats, pressure: Floats, scale: float, step: Singles, /
 ) -> None: ...

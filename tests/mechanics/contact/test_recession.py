@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import viscontact as vc
 from viscontact.mechanics.contact.recession import TURNS, ContactTrend
@@ -73,3 +74,20 @@ def test_trend_on_a_larger_grid_knows_nothing_of_the_new_cells() -> None:
     trend = trend_after(([1.0] * 4, OPEN), ([2.0] * 4, OPEN)).on(GRID, larger)
     np.testing.assert_array_equal(trend.gap.rises[0], [False, True, True, True, True, False])
     np.testing.assert_array_equal(trend.gap.extreme[0], [np.inf, 2.0, 2.0, 2.0, 2.0, np.inf])
+
+
+@pytest.mark.parametrize("mirrored", [(True, False), (False, True), (True, True)])
+def test_trends_of_an_even_contact_are_followed_on_a_part_of_the_grid(mirrored):
+    random, grid = np.random.default_rng(7), vc.Grid((6, 8), (1.0, 1.0))
+    larger = grid.widened((10, 12))
+    whole, part = ContactTrend.at_first(grid), ContactTrend.at_first(grid, mirrored)
+    for _ in range(6):
+        quarter = random.random((2, 3, 4))
+        gap, pressure = (np.block([[q[::-1, ::-1], q[::-1]], [q[:, ::-1], q]]) for q in quarter)
+        whole, part = (each.after(gap, pressure, gap < 0.3, 0.0) for each in (whole, part))
+    assert part.left.size == whole.left.size // 2 ** sum(mirrored)
+    on_larger = np.ones(larger.shape)
+    pairs = zip(whole.recession(pressure), part.recession(pressure), strict=True)
+    grown = (each.on(grid, larger).recession(on_larger) for each in (whole, part))
+    for one, other in (*pairs, *zip(*grown, strict=True)):
+        np.testing.assert_array_equal(one, other)

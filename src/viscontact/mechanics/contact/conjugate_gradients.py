@@ -213,9 +213,9 @@ class BoundedCG:
 
     def _is_feasible(self) -> bool:
         """True if the pressure is non-negative and balanced to rounding."""
-        sums = self._passes.sums(self.iterate.pressure) * self.patch.cell_area
-        off = self.problem.constraints.imbalance(sums, self.patch.arm)
-        return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
+        given = self.problem.constraints, self.patch.cell_area, self.patch.arm
+        least, off = self._passes.weigh(self.iterate.pressure, *given)
+        return least >= 0 and off < BALANCE_TOLERANCE
 
     def _project_to_feasible(self, *, is_ahead: bool = False) -> bool:
         """Cut off tension of a pressure and restore the balances; whether that was possible."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.arrays import Bools, Field, Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import Team, blocks_of
 from viscontact.bodies.grid import Grid
@@ -42,26 +43,25 @@ class Trend:
         """Trend of as many cells, without particular values."""
         return Trend(np.empty_like(self.extreme), np.empty_like(self.rises))
 
-    def on(self, small: Grid, large: Grid, beyond: float) -> Trend:
-        """The same trend on a larger grid, with a value beyond the smaller one."""
-        extreme = small.embed(self.extreme, large, beyond)
-        return Trend(extreme, small.embed(self.rises, large).astype(bool))
-
 
 @dataclass(frozen=True, eq=False)
 class ContactTrend:
     """Trends of gap [m] and pressure [Pa] of a contact on a creeping body."""
 
+    # Of a contact that is even along an axis, of the cells beyond its middle only.
+
     gap: Trend
     pressure: Trend
     left: Bools  # cells that have been in contact since their gaps last closed
+    mirrored: tuple[bool, bool] = (False, False)
 
     @classmethod
-    def at_first(cls, grid: Grid) -> ContactTrend:
+    def at_first(cls, grid: Grid, mirrored: tuple[bool, bool] = (False, False)) -> ContactTrend:
         """Before the first contact."""
-        gap = Trend(np.full(grid.shape, np.inf), np.zeros(grid.shape, dtype=bool))
-        pressure = Trend(np.zeros(grid.shape), np.ones(grid.shape, dtype=bool))
-        return cls(gap, pressure, np.zeros(grid.shape, dtype=bool))
+        nothing = np.zeros(_beyond_middle(np.broadcast_to(0.0, grid.shape), mirrored).shape)
+        gap = Trend(nothing + np.inf, np.zeros(nothing.shape, dtype=bool))
+        pressure = Trend(nothing, np.ones(nothing.shape, dtype=bool))
+        return cls(gap, pressure, np.zeros(nothing.shape, dtype=bool), mirrored)
 
     def after(
         self,
@@ -71,9 +71,13 @@ class ContactTrend:
         error: float,
         team: Team | None = None,
     ) -> ContactTrend:
-        """Trend after another step, with the solver's error of gaps [m]."""
+        """Trend after another step, with the solver's error of gaps [m]; fields of the grid."""
+        gap, pressure, in_contact = (
+            _beyond_middle(each, self.mirrored) for each in (gap, pressure, in_contact)
+        )
         if team is not None and team.core is not None:
-            found = ContactTrend(self.gap.empty(), self.pressure.empty(), np.empty_like(self.left))
+            empty = self.gap.empty(), self.pressure.empty(), np.empty_like(self.left)
+            found = ContactTrend(*empty, self.mirrored)
             fields = gap, pressure, in_contact, error, TURNS, self.fields, found.fields
             team.core.follow_trends(*fields, team.threads)
             return found
@@ -86,7 +90,7 @@ class ContactTrend:
 
         later = self.gap.after(closed, error)
         left = in_contact | (self.left & later.rises)
-        return ContactTrend(later, self.pressure.after(pressed, 0.0), left)
+        return replace(self, gap=later, pressure=self.pressure.after(pressed, 0.0), left=left)
 
     @property
     def fields(self) -> tuple[Floats, Bools, Floats, Bools, Bools]:
@@ -96,19 +100,38 @@ class ContactTrend:
 
     def on(self, small: Grid, large: Grid) -> ContactTrend:
         """The same trends on a larger grid."""
-        gap, pressure = self.gap.on(small, large, np.inf), self.pressure.on(small, large, 0.0)
-        return ContactTrend(gap, pressure, small.embed(self.left, large).astype(bool))
+
+        def grown(field: Numbers, beyond: float) -> Numbers:
+            whole = small.embed(Team().unfold(field, self.mirrored), large, beyond)
+            return np.ascontiguousarray(_beyond_middle(whole, self.mirrored))
+
+        gap, pressure = (
+            Trend(grown(of.extreme, beyond), grown(of.rises, 0.0).astype(bool))
+            for of, beyond in ((self.gap, np.inf), (self.pressure, 0.0))
+        )
+        return replace(self, gap=gap, pressure=pressure, left=grown(self.left, 0.0).astype(bool))
 
     def restart_data(self) -> dict[str, Any]:
         """Return the trends as plain data."""
-        return {"gap": vars(self.gap), "pressure": vars(self.pressure), "left": self.left}
+        trends = {"gap": vars(self.gap), "pressure": vars(self.pressure)}
+        return trends | {"left": self.left, "mirrored": list(self.mirrored)}
 
     @classmethod
     def from_restart_data(cls, data: dict[str, Any]) -> ContactTrend:
         """Read the trends from plain data."""
-        return cls(Trend(**data["gap"]), Trend(**data["pressure"]), data["left"])
+        along_x, along_y = data["mirrored"]
+        trends = Trend(**data["gap"]), Trend(**data["pressure"])
+        return cls(*trends, data["left"], (along_x, along_y))
 
-    def recession(self, pressure: Floats) -> Recession:
-        """Where the contact recedes, under the present pressure [Pa]."""
-        falls = ~self.pressure.rises
-        return Recession(pressure, falls=falls, opens=self.gap.rises, left=self.left)
+    def recession(self, pressure: Floats, team: Team | None = None) -> Recession:
+        """Where the contact recedes, under the present pressure [Pa], on the grid."""
+        flags = ~self.pressure.rises, self.gap.rises, self.left
+        return Recession(pressure, *((team or Team()).unfold(each, self.mirrored) for each in flags))
+
+
+def _beyond_middle(field: Field, mirrored: tuple[bool, bool]) -> Field:
+    """The cells of a field beyond the middle of the axes along which it is even."""
+    rows, columns = (
+        count // 2 if even else 0 for count, even in zip(field.shape, mirrored, strict=True)
+    )
+    return field[rows:, columns:]

@@ -83,7 +83,13 @@ class Constraints:
     @cached_property
     def targets(self) -> Floats:
         """Resultants, zero where the motion is prescribed."""
-        return np.array([resultant or 0.0 for resultant in self.resultants])
+        return np.array(self.plain_targets)
+
+    @property
+    def plain_targets(self) -> tuple[float, float, float]:
+        """The same as plain numbers."""
+        force, moment_x, moment_y = (resultant or 0.0 for resultant in self.resultants)
+        return force, moment_x, moment_y
 
     def with_prescribed(self, motion: Floats) -> Floats:
         """A motion with its prescribed components set."""
@@ -92,7 +98,7 @@ class Constraints:
 
     def imbalance(self, sums: Floats, arm: float) -> float:
         """Largest error of `sums` [N, N m, N m] over the force or target; `arm` in [m]."""
-        found, targets = sums.tolist(), [each or 0.0 for each in self.resultants]
+        found, targets = sums.tolist(), self.plain_targets
         force = max(abs(targets[0]), abs(found[0]), LEAST_FORCE)
         errors = [
             abs(found[k] - targets[k]) / (force * (arm if k else 1.0))

@@ -30,6 +30,7 @@ from viscontact.mechanics.time_integration.step_shape import (
     FieldMap,
     StepShape,
     Trend,
+    creep_after,
     step_shape,
 )
 
@@ -195,7 +196,7 @@ def ramp_weights(compliance: SeriesCompliance, shape: StepShape) -> RampWeights:
         turn = np.append(turn, compliance.fluidity * shape.duration / 2)
         end = np.append(end, compliance.fluidity * slow / 2)
     weight = shape.turn_weight
-    crept = compliance(shape.duration) - compliance.instant
+    crept = creep_after(compliance, shape.duration) - compliance.instant
     resolved = is_resolved(crept, compliance.instant, whole=slow == 0)
     return RampWeights(decay, old, end + weight * turn, (1 - weight) * turn, resolved)
 

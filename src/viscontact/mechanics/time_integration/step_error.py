@@ -27,7 +27,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import Hereditary
 from viscontact.mechanics.time_integration.internal_variables import ramp_weights
 from viscontact.mechanics.time_integration.plan import HereditaryPlan
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.mechanics.time_integration.step_shape import FieldMap, step_shape
+from viscontact.mechanics.time_integration.step_shape import FieldMap, creep_after, step_shape
 
 #: Interpolation error of a first step after a kink, in those that the curvature of its successor
 #: gives; after a first touch, where q grows as t^(2/3), the ratio is 2.9.
@@ -115,7 +115,7 @@ class TimeErrors:
         mean, speed, turn = self._change_over(step, values, self._values, rate)
         size, travel = max(self._size, mean), LARGEST_OVER_MEAN * step.duration * speed
         interpolation_error = self._interpolation_error(step, turn, travel, response)
-        crept = self._compliance(step.duration) - self._compliance.instant
+        crept = creep_after(self._compliance, step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
         relative = 0.0
         if size > 0:

@@ -108,7 +108,18 @@ def step_shape(
     return StepShape(duration, rise, (trend.age + rise) / (trend.age + duration))
 
 
-# Cached, as several integrals take the same step.
+# Cached, as several integrals and the estimate of their error take the same step.
+@lru_cache(maxsize=16)
+def creep_after(compliance: ContactCompliance, duration: float) -> float:
+    """Creep function after a duration [1/Pa]."""
+    return compliance(duration)
+
+
+@lru_cache(maxsize=16)
+def _mean_creep_until(compliance: ContactCompliance, duration: float) -> float:
+    return compliance.mean(0.0, duration)
+
+
 @lru_cache(maxsize=16)
 def longest_smooth_rise(
     compliance: ContactCompliance, duration: float, *, after_jump: bool = False
@@ -129,13 +140,15 @@ def longest_smooth_rise(
     halves an error: the whole step for J like t^n with n up to 1/2, where the trapezoidal rule is
     known to be stable and of second order; two thirds of it for a dashpot, where it is not damped.
     """
-    instant, end = compliance.instant, compliance(duration)
+    instant, end = compliance.instant, creep_after(compliance, duration)
     limit = OLD_WEIGHT_AFTER_JUMP * instant if after_jump else instant
 
-    def excess(part: float) -> float:
-        new = compliance.mean((1.0 - part) * duration, duration)
+    def excess_of(new: float) -> float:
         return end - new - (limit if instant > 0 else new / 2)
 
-    if excess(1.0) <= 0:
+    def excess(part: float) -> float:
+        return excess_of(compliance.mean((1.0 - part) * duration, duration))
+
+    if excess_of(_mean_creep_until(compliance, duration)) <= 0:
         return duration
     return duration * float(scipy.optimize.brentq(excess, 0.0, 1.0, xtol=1e-15))

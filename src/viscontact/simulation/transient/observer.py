@@ -90,7 +90,7 @@ class Observer:
         self._held = False  # the load of the last step
         # Where bodies adhere, the pressure at the rim is the attraction, which tells no recession.
         plain = run.problem.surface.creep.is_elastic or run.law is not None
-        self._trend = None if plain else ContactTrend.at_first(run.grid)
+        self._trend = None if plain else ContactTrend.at_first(run.grid, run.mirrored)
         self._cycles = LoadCycleWork(run.problem.history.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: Bools | None = None  # its spots are not counted yet
@@ -174,7 +174,7 @@ class Observer:
         if self._trend is not None:
             error = self._run.problem.solver_error * largest_of(solution.displacement)
             self._trend = self._trend.after(gap, solution.pressure, in_contact, error, self._team)
-            recession = self._trend.recession(solution.pressure)
+            recession = self._trend.recession(solution.pressure, self._team)
         return trace_rim(self._run.grid, in_contact, gap, self._outline, recession, self._team)
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:

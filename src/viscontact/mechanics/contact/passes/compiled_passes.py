@@ -79,7 +79,7 @@ class CompiledPasses(SearchPasses):
         size: tuple[float, float],
     ) -> bool:
         """See `SearchPasses.trial`."""
-        balances = tuple(constraints.targets.tolist()), constraints.free_motions, *size
+        balances = constraints.plain_targets, constraints.free_motions, *size
         way, unit = step
         given = *direction, ahead, *balances, 1 / unit, way
         return bool(self._core.trial(self._cells, pressure, *given))
@@ -88,9 +88,17 @@ class CompiledPasses(SearchPasses):
         self, pressure: Floats, constraints: Constraints, cell_area: float, arm: float
     ) -> bool:
         """See `SearchPasses.balance`."""
-        targets = tuple(constraints.targets.tolist())
+        targets = constraints.plain_targets
         given = targets, constraints.free_motions, cell_area, arm
         return bool(self._core.balance(self._cells, pressure, *given))
+
+    def weigh(
+        self, pressure: Floats, constraints: Constraints, cell_area: float, arm: float
+    ) -> tuple[float, float]:
+        """See `SearchPasses.weigh`."""
+        given = constraints.plain_targets, constraints.free_motions, cell_area, arm
+        least, imbalance = self._core.weigh(self._cells, pressure, *given)
+        return least, imbalance
 
     def difference(self, ahead: Floats, pressure: Floats, unit: float, step: Singles) -> None:
         """See `SearchPasses.difference`."""

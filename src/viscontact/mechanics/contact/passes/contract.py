@@ -116,6 +116,12 @@ class SearchPasses(ABC):
         """Cut off tension and balance by a plane factor; False where no factor does it."""
 
     @abstractmethod
+    def weigh(
+        self, pressure: Floats, constraints: Constraints, cell_area: float, arm: float
+    ) -> tuple[float, float]:
+        """Least pressure [Pa], and largest error of its resultants over the force [-]."""
+
+    @abstractmethod
     def difference(self, ahead: Floats, pressure: Floats, unit: float, step: Singles) -> None:
         """Write the way from one pressure to another to `step`, in a unit [Pa]."""
 

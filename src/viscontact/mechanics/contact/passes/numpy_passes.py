@@ -181,6 +181,13 @@ class NumPyPasses(SearchPasses):
         """See `SearchPasses.balance`."""
         return balance(pressure, constraints, self._plane, cell_area, arm)
 
+    def weigh(
+        self, pressure: Floats, constraints: Constraints, cell_area: float, arm: float
+    ) -> tuple[float, float]:
+        """See `SearchPasses.weigh`."""
+        off = constraints.imbalance(self._plane.sums(pressure) * cell_area, arm)
+        return float(pressure.min()), off
+
     def difference(self, ahead: Floats, pressure: Floats, unit: float, step: Singles) -> None:
         """See `SearchPasses.difference`."""
 
