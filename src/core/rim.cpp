@@ -103,7 +103,8 @@ double chord(const Interval &here, const Field<Flag> &contact, const Rim &found)
     return height / descent;
 }
 
-std::vector<Interval> changes(const Field<Flag> &contact) {
+// Intervals of the part of an even block beyond its middle; in the middle nothing changes.
+std::vector<Interval> changes(const Field<Flag> &contact, const Mirrored &mirrored) {
     std::vector<Interval> found;
     const Cell along_x{1, 0}, along_y{0, 1};
     const auto note = [&](int axis, std::ptrdiff_t i, std::ptrdiff_t j) {
@@ -118,12 +119,15 @@ std::vector<Interval> changes(const Field<Flag> &contact) {
         here.outwards = {here.outer.row - here.inner.row, here.outer.column - here.inner.column};
         found.push_back(here);
     };
+    const std::ptrdiff_t first_row = mirrored.along_x ? contact.rows / 2 : 0;
+    const std::ptrdiff_t first = mirrored.along_y ? contact.columns / 2 : 0;
     std::vector<Flag> marks(contact.columns, 0);
-    for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
+    for (std::ptrdiff_t i = first_row; i < contact.rows; ++i) {
         const Flag *row = contact.row(i), *next = i + 1 < contact.rows ? contact.row(i + 1) : row;
         for (std::ptrdiff_t j = 0; j < contact.columns; ++j) marks[j] = row[j] ^ next[j];
         for (std::ptrdiff_t j = 0; j + 1 < contact.columns; ++j) marks[j] |= row[j] ^ row[j + 1];
-        each_marked(marks.data(), contact.columns, [&](std::ptrdiff_t j) {
+        each_marked(marks.data() + first, contact.columns - first, [&](std::ptrdiff_t beyond) {
+            const std::ptrdiff_t j = first + beyond;
             if (row[j] != next[j]) note(0, i, j);
             if (j + 1 < contact.columns && row[j] != row[j + 1]) note(1, i, j);
         });
@@ -166,12 +170,20 @@ double EdgeLaw::offset(double slope) const {
 
 void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
                 const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
-                const Rim &found) {
+                const Mirrored &mirrored, const Rim &found) {
     fill(found.along_x, NONE);
     fill(found.along_y, NONE);
-    const auto &along = [&](int axis) { return axis == 0 ? found.along_x : found.along_y; };
+    const auto write = [&](const Interval &here) {
+        const auto &along = here.axis == 0 ? found.along_x : found.along_y;
+        const std::ptrdiff_t i = here.start.row, j = here.start.column;
+        const std::ptrdiff_t image_i = along.rows - 1 - i, image_j = along.columns - 1 - j;
+        along.row(i)[j] = here.located;
+        if (mirrored.along_x) along.row(image_i)[j] = here.located;
+        if (mirrored.along_y) along.row(i)[image_j] = here.located;
+        if (mirrored.along_x && mirrored.along_y) along.row(image_i)[image_j] = here.located;
+    };
     std::vector<Interval> oblique;
-    for (Interval &here : changes(contact)) {
+    for (Interval &here : changes(contact, mirrored)) {
         locate_by_gaps(here, gaps[here.axis], contact, gap);
         if (recession) locate_by_pressures(here, pressures[here.axis], *recession);
         if (ends && std::isinf(at(gap, here.outer, BEYOND))) {
@@ -182,14 +194,13 @@ void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const Edge
         if (std::abs(here.slope) > 1)
             oblique.push_back(here);
         else
-            along(here.axis).row(here.start.row)[here.start.column] = here.located;
+            write(here);
     }
     for (Interval &here : oblique) {
         const double by_chord = chord(here, contact, found);
         if (!std::isnan(by_chord)) here.located = by_chord;
     }
-    for (const Interval &here : oblique)
-        along(here.axis).row(here.start.row)[here.start.column] = here.located;
+    for (const Interval &here : oblique) write(here);
 }
 
 namespace {

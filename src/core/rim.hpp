@@ -28,12 +28,17 @@ struct Rim {
     Field<double> along_x, along_y;
 };
 
+// Axes along which a block of cells is even about its own middle.
+struct Mirrored {
+    bool along_x, along_y;
+};
+
 // Writes the crossings of the rim with the lines along x, shape (nx - 1, ny), and y, (nx, ny - 1).
 // Ends are distances to the body's outline, in fields of these shapes; laws are those along x and
 // y.
 void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
                 const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
-                const Rim &found);
+                const Mirrored &mirrored, const Rim &found);
 
 // Squares between four neighbouring centres that the polygons through the crossings enclose.
 double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment);

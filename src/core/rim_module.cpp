@@ -32,8 +32,11 @@ void define_rim(nb::module_ &module) {
            [](Array<const bool> contact, Array<const double> gap, const EdgeLaw &gap_x,
               const EdgeLaw &gap_y, const EdgeLaw &pressure_x, const EdgeLaw &pressure_y,
               std::optional<Receding> recession, std::optional<GivenLines> ends,
-              Array<double> along_x, Array<double> along_y) {
+              std::tuple<bool, bool> mirrored, Array<double> along_x, Array<double> along_y) {
                const Shape shape = shape_of(contact);
+               const auto [even_x, even_y] = mirrored;
+               if ((even_x && shape.rows % 2) || (even_y && shape.columns % 2))
+                   throw std::invalid_argument("an even block has even numbers of cells");
                const EdgeLaw gaps[] = {gap_x, gap_y}, pressures[] = {pressure_x, pressure_y};
                viscontact::Recession receding;
                if (recession) {
@@ -45,6 +48,7 @@ void define_rim(nb::module_ &module) {
                if (ends) at_ends = crossings(shape, std::get<0>(*ends), std::get<1>(*ends));
                viscontact::locate_rim(field(shape, contact), field(shape, gap), gaps, pressures,
                                       recession ? &receding : nullptr, ends ? &at_ends : nullptr,
+                                      {even_x, even_y},
                                       crossings(shape, along_x, along_y));
            });
     define(module, "segment",

@@ -163,6 +163,7 @@ def locate_rim(
     pressure_y: EdgeLaw,
     recession: tuple[Floats, Bools, Bools, Bools] | None,
     ends: tuple[Floats, Floats] | None,
+    mirrored: tuple[bool, bool],
     along_x: Floats,
     along_y: Floats,
     /,

@@ -126,7 +126,9 @@ class ContactTrend:
     def recession(self, pressure: Floats, team: Team | None = None) -> Recession:
         """Where the contact recedes, under the present pressure [Pa], on the grid."""
         flags = ~self.pressure.rises, self.gap.rises, self.left
-        return Recession(pressure, *((team or Team()).unfold(each, self.mirrored) for each in flags))
+        return Recession(
+            pressure, *((team or Team()).unfold(each, self.mirrored) for each in flags)
+        )
 
 
 def _beyond_middle(field: Field, mirrored: tuple[bool, bool]) -> Field:

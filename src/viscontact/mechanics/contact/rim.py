@@ -122,13 +122,15 @@ def trace_rim(
     outline: Outline | None = None,
     recession: Recession | None = None,
     team: Team | None = None,
+    mirrored: tuple[bool, bool] = (False, False),
 ) -> Rim:
     """Locate the rim of a contact between cell centres; the area is of second order.
 
     The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the
     middle. The square root of the pressure inside a smooth rim belongs to an opening of
     distance^(3/2) outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep
-    law. Where the contact recedes, the pressure locates the rim. A `team` has the compiled passes.
+    law. Where the contact recedes, the pressure locates the rim. A `team` has the compiled passes,
+    which work on one half of a contact that is `mirrored` along an axis.
     """
     team = team or Team()
     if any(grid.periodic):
@@ -141,7 +143,7 @@ def trace_rim(
     if outline is not None and np.isinf(gap).any():
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
         ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
-    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
+    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team, mirrored)
     first, second = (
         np.arange(block.start, block.start + count)
         for block, count in zip((rows, columns), contact.shape, strict=True)

@@ -74,10 +74,15 @@ def locate_rim(
     recession: Recession | None,
     ends: tuple[Floats, Floats] | None,
     team: Team,
+    mirrored: tuple[bool, bool] = (False, False),
 ) -> tuple[Floats, Floats]:
-    """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline."""
+    """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline.
+
+    In a block that is `mirrored` about its middle half of the work is done by copies.
+    """
     if team.core is not None:
-        return _compiled_crossings(grid, contact, gap, recession, ends, team.core)
+        fields = contact, gap, recession, ends
+        return _compiled_crossings(grid, fields, team.core, mirrored)
     laws = [_laws(grid.cell_size, side, periodic=all(grid.periodic)) for side in (0, 1)]
     intervals = _changes(contact)
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
@@ -104,13 +109,12 @@ def locate_rim(
 
 def _compiled_crossings(
     grid: Grid,
-    contact: Bools,
-    gap: Floats,
-    recession: Recession | None,
-    ends: tuple[Floats, Floats] | None,
+    fields: tuple[Bools, Floats, Recession | None, tuple[Floats, Floats] | None],
     core: ModuleType,
+    mirrored: tuple[bool, bool],
 ) -> tuple[Floats, Floats]:
     """The same by the compiled core."""
+    contact, gap, recession, ends = fields
     nx, ny = contact.shape
     found = np.empty((nx - 1, ny)), np.empty((nx, ny - 1))
     outline = None
@@ -118,7 +122,7 @@ def _compiled_crossings(
         outline = np.ascontiguousarray(ends[0]), np.ascontiguousarray(ends[1])
     laws = _compiled_laws(*grid.cell_size, core, periodic=all(grid.periodic))
     receding = None if recession is None else tuple(recession)
-    core.locate_rim(contact, gap, *laws, receding, outline, *found)
+    core.locate_rim(contact, gap, *laws, receding, outline, mirrored, *found)
     return found
 
 

@@ -175,7 +175,8 @@ class Observer:
             error = self._run.problem.solver_error * largest_of(solution.displacement)
             self._trend = self._trend.after(gap, solution.pressure, in_contact, error, self._team)
             recession = self._trend.recession(solution.pressure, self._team)
-        return trace_rim(self._run.grid, in_contact, gap, self._outline, recession, self._team)
+        fields = in_contact, gap, self._outline, recession
+        return trace_rim(self._run.grid, *fields, self._team, self._run.mirrored)
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
         """Add the new warnings; at the last state, the mesh is judged by the largest contact."""

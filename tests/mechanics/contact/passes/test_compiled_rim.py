@@ -68,6 +68,26 @@ def test_crossings_area_and_extents(
     assert found.extent.segment == close_to(expected.extent.segment, 1e-14)
 
 
+@given(seeds, cells, st.tuples(st.booleans(), st.booleans()), st.booleans())
+def test_one_half_of_an_even_contact_tells_the_other(
+    seed: int, part: tuple[int, int], even: tuple[bool, bool], recedes: bool
+) -> None:
+    random, team = np.random.default_rng(seed), Team(core=compiled.core)
+    flags = [random.random(part) < 0.5 for _ in range(3)]
+    contact, gap, pressure, *flags = (
+        Team().unfold(each, even) for each in (*spots(random, part), *flags)
+    )
+    grid = vc.Grid(contact.shape, (1e-3 * contact.shape[0], 1.3e-3 * contact.shape[1]))
+    recession = Recession(pressure, *flags) if recedes else None
+    whole, half = (
+        trace_rim(grid, contact, gap, None, recession, team, mirrored)
+        for mirrored in ((False, False), even)
+    )
+    np.testing.assert_array_equal(half.along_x, whole.along_x)
+    np.testing.assert_array_equal(half.along_y, whole.along_y)
+    assert half.extent == whole.extent
+
+
 @given(seeds, cells, st.sampled_from([0.0, 0.05]))
 def test_trends_over_steps(seed: int, shape: tuple[int, int], error: float) -> None:
     random = np.random.default_rng(seed)
