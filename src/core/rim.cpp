@@ -135,10 +135,45 @@ std::vector<Interval> changes(const Field<Flag> &contact, const Mirrored &mirror
     return found;
 }
 
-void fill(const Field<double> &field, double value) {
-    for (std::ptrdiff_t i = 0; i < field.rows; ++i)
-        std::fill(field.row(i), field.row(i) + field.columns, value);
-}
+// Crossings of the lines with the rim, in memory that is kept: there are few beside the contact's
+// cells, and all others stay not a number.
+class Crossings {
+  public:
+    Crossings(const Field<Flag> &contact, const Mirrored &mirrored) : mirrored_(mirrored) {
+        thread_local std::vector<double> kept;
+        const std::ptrdiff_t nx = contact.rows, ny = contact.columns;
+        if (kept.size() < static_cast<std::size_t>(2 * nx * ny)) kept.assign(2 * nx * ny, NONE);
+        rim.along_x = {kept.data(), nx - 1, ny, ny};
+        rim.along_y = {kept.data() + nx * ny, nx, ny - 1, ny};
+    }
+
+    ~Crossings() {
+        for (double *each : written_) *each = NONE;
+    }
+
+    Crossings(const Crossings &) = delete;
+    Crossings &operator=(const Crossings &) = delete;
+
+    void write(const Interval &here) {
+        const auto &along = here.axis == 0 ? rim.along_x : rim.along_y;
+        const std::ptrdiff_t i = here.start.row, j = here.start.column;
+        const std::ptrdiff_t image_i = along.rows - 1 - i, image_j = along.columns - 1 - j;
+        const auto put = [&](std::ptrdiff_t row, std::ptrdiff_t column) {
+            written_.push_back(along.row(row) + column);
+            *written_.back() = here.located;
+        };
+        put(i, j);
+        if (mirrored_.along_x) put(image_i, j);
+        if (mirrored_.along_y) put(i, image_j);
+        if (mirrored_.along_x && mirrored_.along_y) put(image_i, image_j);
+    }
+
+    Rim rim;
+
+  private:
+    Mirrored mirrored_;
+    std::vector<double *> written_;
+};
 
 }  // namespace
 
@@ -168,20 +203,11 @@ double EdgeLaw::offset(double slope) const {
     return part * (size - slopes[k]) + offsets[k];
 }
 
-void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
-                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
-                const Mirrored &mirrored, const Rim &found) {
-    fill(found.along_x, NONE);
-    fill(found.along_y, NONE);
-    const auto write = [&](const Interval &here) {
-        const auto &along = here.axis == 0 ? found.along_x : found.along_y;
-        const std::ptrdiff_t i = here.start.row, j = here.start.column;
-        const std::ptrdiff_t image_i = along.rows - 1 - i, image_j = along.columns - 1 - j;
-        along.row(i)[j] = here.located;
-        if (mirrored.along_x) along.row(image_i)[j] = here.located;
-        if (mirrored.along_y) along.row(i)[image_j] = here.located;
-        if (mirrored.along_x && mirrored.along_y) along.row(image_i)[image_j] = here.located;
-    };
+namespace {
+
+void locate(Crossings &crossings, const Field<Flag> &contact, const Field<double> &gap,
+            const EdgeLaw (&gaps)[2], const EdgeLaw (&pressures)[2], const Recession *recession,
+            const Rim *ends, const Mirrored &mirrored) {
     std::vector<Interval> oblique;
     for (Interval &here : changes(contact, mirrored)) {
         locate_by_gaps(here, gaps[here.axis], contact, gap);
@@ -194,14 +220,16 @@ void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const Edge
         if (std::abs(here.slope) > 1)
             oblique.push_back(here);
         else
-            write(here);
+            crossings.write(here);
     }
     for (Interval &here : oblique) {
-        const double by_chord = chord(here, contact, found);
+        const double by_chord = chord(here, contact, crossings.rim);
         if (!std::isnan(by_chord)) here.located = by_chord;
     }
-    for (const Interval &here : oblique) write(here);
+    for (const Interval &here : oblique) crossings.write(here);
 }
+
+}  // namespace
 
 namespace {
 
@@ -218,8 +246,6 @@ std::ptrdiff_t count_corners(const Flag *near, const Flag *far, std::ptrdiff_t s
     for (std::ptrdiff_t j = 0; j < squares; ++j) count[j] &= 3;
     return whole;
 }
-
-}  // namespace
 
 double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment) {
     const auto crossing = [](double value) { return std::isnan(value) ? 0.0 : value; };
@@ -253,8 +279,6 @@ double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segme
     return enclosed;
 }
 
-namespace {
-
 // Extent along one axis, by flags and crossings at (line, place on it).
 template <class Contact, class Crossing>
 double extent(std::ptrdiff_t lines, std::ptrdiff_t places, std::ptrdiff_t first,
@@ -283,8 +307,8 @@ std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells) {
     std::ptrdiff_t first_row = -1, last_row = -1, first = cells.columns, last = -1;
     for (std::ptrdiff_t i = 0; i < cells.rows; ++i) {
         const Flag *row = cells.row(i), *end = row + cells.columns;
-        const Flag *begin = std::find_if(row, end, [](Flag each) { return each != 0; });
-        if (begin == end) continue;
+        const auto *begin = static_cast<const Flag *>(std::memchr(row, 1, cells.columns));
+        if (!begin) continue;
         if (first_row < 0) first_row = i;
         last_row = i;
         first = std::min<std::ptrdiff_t>(first, begin - row);
@@ -294,8 +318,10 @@ std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells) {
     return {first_row, last_row, last < 0 ? -1 : first, last};
 }
 
-Extents extents(const Field<Flag> &contact, const Rim &rim) {
-    Extents found{0, 0, 0, 0};
+namespace {
+
+Extent measured(const Field<Flag> &contact, const Rim &rim, double segment) {
+    Extent found{enclosed_squares(contact, rim, segment), 0, 0, 0, 0};
     const auto [first_row, last_row, first_column, last_column] = spans(contact);
     std::vector<Flag> touched(contact.columns, 0);
     for (std::ptrdiff_t i = 0; i < contact.rows; ++i) {
@@ -314,6 +340,25 @@ Extents extents(const Field<Flag> &contact, const Rim &rim) {
         [&](std::ptrdiff_t line, std::ptrdiff_t place) { return contact.row(place)[line]; },
         [&](std::ptrdiff_t line, std::ptrdiff_t place) { return rim.along_y.row(place)[line]; });
     return found;
+}
+
+template <class Number>
+Field<Number> part(const Field<Number> &of, const Block &block, bool less_rows, bool less_columns) {
+    return {of.row(block.first_row) + block.first_column,
+            block.last_row - block.first_row - less_rows,
+            block.last_column - block.first_column - less_columns, of.distance};
+}
+
+}  // namespace
+
+Extent trace_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
+                 const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
+                 const Mirrored &mirrored, const Block &inner, double segment) {
+    Crossings crossings(contact, mirrored);
+    locate(crossings, contact, gap, gaps, pressures, recession, ends, mirrored);
+    const Rim rim{part(crossings.rim.along_x, inner, true, false),
+                  part(crossings.rim.along_y, inner, false, true)};
+    return measured(part(contact, inner, false, false), rim, segment);
 }
 
 namespace {

@@ -33,15 +33,24 @@ struct Mirrored {
     bool along_x, along_y;
 };
 
-// Writes the crossings of the rim with the lines along x, shape (nx - 1, ny), and y, (nx, ny - 1).
-// Ends are distances to the body's outline, in fields of these shapes; laws are those along x and
-// y.
-void locate_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
-                const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
-                const Mirrored &mirrored, const Rim &found);
+// A block of cells: first rows and columns, and those after the last ones.
+struct Block {
+    std::ptrdiff_t first_row, last_row, first_column, last_column;
+};
 
-// Squares between four neighbouring centres that the polygons through the crossings enclose.
-double enclosed_squares(const Field<Flag> &contact, const Rim &rim, double segment);
+// Extent of a contact: squares between four neighbouring centres that the polygons through the
+// crossings enclose, extents between its farthest crossings along x and y, in cells, and the
+// numbers of rows and columns that it touches.
+struct Extent {
+    double squares, along_x, along_y;
+    std::ptrdiff_t rows, columns;
+};
+
+// Locates the rim, and measures the contact in an inner block. Ends are distances to the body's
+// outline along x, shape (nx - 1, ny), and y, (nx, ny - 1); laws are those along x and y.
+Extent trace_rim(const Field<Flag> &contact, const Field<double> &gap, const EdgeLaw (&gaps)[2],
+                 const EdgeLaw (&pressures)[2], const Recession *recession, const Rim *ends,
+                 const Mirrored &mirrored, const Block &inner, double segment);
 
 // Area between the rim and its chords per quarter turn: `whole` of it, of which `loss` over the
 // mean chord is the error of crossings by the gap, as long as a `least` part is left.
@@ -50,15 +59,6 @@ struct Segments {
 
     double of(const Field<Flag> &contact, const Field<double> &gap) const;
 };
-
-// Extents of a contact between its farthest crossings along x and y, in cells, and the numbers of
-// rows and columns that it touches.
-struct Extents {
-    double along_x, along_y;
-    std::ptrdiff_t rows, columns;
-};
-
-Extents extents(const Field<Flag> &contact, const Rim &rim);
 
 // First and last rows and columns with marked cells; -1 without any.
 std::array<std::ptrdiff_t, 4> spans(const Field<Flag> &cells);

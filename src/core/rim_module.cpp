@@ -28,11 +28,13 @@ void define_rim(nb::module_ &module) {
     using GivenLines = std::tuple<Array<const double>, Array<const double>>;
     using Receding =
         std::tuple<Array<const double>, Array<const bool>, Array<const bool>, Array<const bool>>;
-    define(module, "locate_rim",
+    define(module, "trace_rim",
            [](Array<const bool> contact, Array<const double> gap, const EdgeLaw &gap_x,
               const EdgeLaw &gap_y, const EdgeLaw &pressure_x, const EdgeLaw &pressure_y,
               std::optional<Receding> recession, std::optional<GivenLines> ends,
-              std::tuple<bool, bool> mirrored, Array<double> along_x, Array<double> along_y) {
+              std::tuple<bool, bool> mirrored,
+              std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t> inner,
+              double segment) {
                const Shape shape = shape_of(contact);
                const auto [even_x, even_y] = mirrored;
                if ((even_x && shape.rows % 2) || (even_y && shape.columns % 2))
@@ -46,10 +48,20 @@ void define_rim(nb::module_ &module) {
                }
                viscontact::Rim at_ends;
                if (ends) at_ends = crossings(shape, std::get<0>(*ends), std::get<1>(*ends));
-               viscontact::locate_rim(field(shape, contact), field(shape, gap), gaps, pressures,
-                                      recession ? &receding : nullptr, ends ? &at_ends : nullptr,
-                                      {even_x, even_y},
-                                      crossings(shape, along_x, along_y));
+               const auto [first_row, last_row, first_column, last_column] = inner;
+               const auto within = [](std::ptrdiff_t first, std::ptrdiff_t last,
+                                      std::ptrdiff_t count) {
+                   return 0 <= first && first < last && last <= count;
+               };
+               if (!(within(first_row, last_row, shape.rows) &&
+                     within(first_column, last_column, shape.columns)))
+                   throw std::invalid_argument("the inner block lies within the fields");
+               const auto found = viscontact::trace_rim(
+                   field(shape, contact), field(shape, gap), gaps, pressures,
+                   recession ? &receding : nullptr, ends ? &at_ends : nullptr, {even_x, even_y},
+                   {first_row, last_row, first_column, last_column}, segment);
+               return std::tuple(found.squares, found.along_x, found.along_y, found.rows,
+                                 found.columns);
            });
     define(module, "segment",
            [](Array<const bool> contact, Array<const double> gap,
@@ -58,16 +70,6 @@ void define_rim(nb::module_ &module) {
                const Shape shape = shape_of(contact);
                const viscontact::Segments segments{whole, loss, least};
                return segments.of(field(shape, contact), field(shape, gap));
-           });
-    define(module, "measure_rim",
-           [](Array<const bool> contact, Array<const double> along_x, Array<const double> along_y,
-              double segment) {
-               const Shape shape = shape_of(contact);
-               const auto cells = field(shape, contact);
-               const auto rim = crossings(shape, along_x, along_y);
-               const auto found = viscontact::extents(cells, rim);
-               return std::tuple(viscontact::enclosed_squares(cells, rim, segment), found.along_x,
-                                 found.along_y, found.rows, found.columns);
            });
     define(module, "spans", [](Array<const bool> cells) {
         const auto found = viscontact::spans(field(shape_of(cells), cells));

@@ -154,7 +154,7 @@ def unfold(part: Floats, whole: Floats, /) -> None: ...
 def unfold_flags(part: Bools, whole: Bools, /) -> None: ...
 
 # The rim: see `viscontact.mechanics.contact.rim` and `rim_crossings`.
-def locate_rim(
+def trace_rim(
     contact: Bools,
     gap: Floats,
     gap_x: EdgeLaw,
@@ -164,14 +164,11 @@ def locate_rim(
     recession: tuple[Floats, Bools, Bools, Bools] | None,
     ends: tuple[Floats, Floats] | None,
     mirrored: tuple[bool, bool],
-    along_x: Floats,
-    along_y: Floats,
+    inner: tuple[int, int, int, int],
+    segment: float,
     /,
-) -> None: ...
-def segment(contact: Bools, gap: Floats, of: Triple, /) -> float: ...
-def measure_rim(
-    contact: Bools, along_x: Floats, along_y: Floats, segment: float, /
 ) -> tuple[float, float, float, int, int]: ...
+def segment(contact: Bools, gap: Floats, of: Triple, /) -> float: ...
 def spans(cells: Bools, /) -> tuple[int, int, int, int]: ...
 
 # Transforms: see `viscontact.backend.transforms`.

@@ -9,7 +9,7 @@ from closeness import close_to
 from viscontact.mechanics.contact import cell_fields, resistance
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.moving_domain import coarser_shape
-from viscontact.mechanics.contact.rim import mean_chords
+from viscontact.mechanics.contact.rim_extent import mean_chords
 
 
 def test_outline_of_a_round_punch_is_its_circle():

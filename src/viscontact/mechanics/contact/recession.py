@@ -72,9 +72,8 @@ class ContactTrend:
         team: Team | None = None,
     ) -> ContactTrend:
         """Trend after another step, with the solver's error of gaps [m]; fields of the grid."""
-        gap, pressure, in_contact = (
-            _beyond_middle(each, self.mirrored) for each in (gap, pressure, in_contact)
-        )
+        gap, pressure = (_beyond_middle(each, self.mirrored) for each in (gap, pressure))
+        in_contact = _beyond_middle(in_contact, self.mirrored)
         if team is not None and team.core is not None:
             empty = self.gap.empty(), self.pressure.empty(), np.empty_like(self.left)
             found = ContactTrend(*empty, self.mirrored)

@@ -88,7 +88,7 @@ class Constraints:
     @property
     def plain_targets(self) -> tuple[float, float, float]:
         """The same as plain numbers."""
-        force, moment_x, moment_y = (resultant or 0.0 for resultant in self.resultants)
+        force, moment_x, moment_y = (float(each or 0.0) for each in self.resultants)
         return force, moment_x, moment_y
 
     def with_prescribed(self, motion: Floats) -> Floats:

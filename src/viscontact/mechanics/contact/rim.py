@@ -9,10 +9,7 @@ outline.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -21,42 +18,25 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.team import Team
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.body_edge import Outline
-from viscontact.mechanics.contact.rim_crossings import MARGIN, Recession, locate_rim, places
-
-#: Area between a curved rim and the chords through its crossings, in cells per quarter turn. A
-#: chord of a row is dy/cos φ long, with the direction φ of its normal, where the rim crosses rows
-#: rather than columns; chords of length c lose c²/12 dφ, in a whole turn 8 dx dy/12.
-SEGMENTS = 1 / 6
-
-#: Error of crossings by the gap around few cells, as a part of these segments over the mean chord
-#: in cells, and the least part that is left of them: balls and spots of rough surfaces.
-SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
-
-
-class Extent(NamedTuple):
-    """Extent of a contact, and the lines of cells that it touches."""
-
-    segment: float  # area between the rim and its chords per quarter turn [cells]
-    squares: float  # area between the crossings, in squares between four neighbouring centres
-    along_x: float  # [cells]
-    along_y: float
-    rows: int
-    columns: int
+from viscontact.mechanics.contact.rim_crossings import MARGIN, Recession, RimFields
+from viscontact.mechanics.contact.rim_extent import (
+    Extent,
+    extent_of,
+    mean_chords,
+    segment_by_chords,
+    segment_of,
+)
 
 
 @dataclass(frozen=True, eq=False)
 class Rim:
-    """Cells in contact, and crossings of the rim with the lines between cell centres."""
+    """Cells in contact, and their extent by the crossings of the rim between cell centres."""
 
     # The fields cover a block around the contact. Along a periodic axis it may cross the border;
     # where the contact does so all around, the block ends with the row that it begins with.
 
     grid: Grid
     contact: Bools  # cells under pressure in the block
-    #: Distance from the inner centre, in cells, as in `Outline`; negative where that centre lies
-    #: just outside, and of any size on a chord that crosses the line outside the cells.
-    along_x: Floats
-    along_y: Floats
     rows: Integers  # position of the block in the grid
     columns: Integers
     extent: Extent
@@ -106,15 +86,6 @@ class Rim:
         return field[rows, columns]
 
 
-def mean_chords(contact: Bools, *, periodic: Sequence[bool] = (False, False)) -> Floats:
-    """Mean numbers of consecutive cells in contact along x and y, also across a period's border."""
-    begun = []
-    for lines, repeats in zip((contact, contact.T), periodic, strict=True):
-        first = lines[0] > lines[-1] if repeats else lines[0]
-        begun.append(np.count_nonzero(first) + np.count_nonzero(lines[1:] > lines[:-1]))
-    return np.asarray(np.count_nonzero(contact) / np.maximum(begun, 1))
-
-
 def trace_rim(
     grid: Grid,
     contact: Bools,
@@ -143,17 +114,14 @@ def trace_rim(
     if outline is not None and np.isinf(gap).any():
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
         ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
-    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team, mirrored)
+    segment = segment_of(contact, gap, team)
+    fields, whole = RimFields(contact, gap, recession, ends), (slice(None), slice(None))
+    extent = extent_of(grid, fields, whole, segment, team, mirrored)
     first, second = (
         np.arange(block.start, block.start + count)
         for block, count in zip((rows, columns), contact.shape, strict=True)
     )
-    if team.core is not None:
-        segment = team.core.segment(contact, gap, (SEGMENTS, SEGMENT_LOSS, LEAST_SEGMENTS))
-    else:
-        segment = _segment_of(mean_chords(contact), contact, gap)
-    extent = _extent_of(contact, (along_x, along_y), segment, team)
-    return Rim(grid, contact, along_x, along_y, first, second, extent)
+    return Rim(grid, contact, first, second, extent)
 
 
 def _with_open_lines(span: slice) -> slice:
@@ -172,7 +140,7 @@ def _trace_around(
     team: Team,
 ) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
-    segment = _segment_of(mean_chords(contact, periodic=grid.periodic), contact, gap)
+    segment = segment_by_chords(mean_chords(contact, periodic=grid.periodic), contact, gap)
     (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
         _lines_around(contact, axis, repeats=grid.periodic[axis]) for axis in (0, 1)
     )
@@ -186,10 +154,8 @@ def _trace_around(
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
         ends = end_x, end_y
     inner = inner_rows, inner_columns
-    along_x, along_y = locate_rim(grid, contact, gap, recession, ends, team)
-    crossings = along_x[inner], along_y[inner]
-    extent = _extent_of(contact[inner], crossings, segment, team)
-    return Rim(grid, contact[inner], *crossings, rows, columns, extent)
+    extent = extent_of(grid, RimFields(contact, gap, recession, ends), inner, segment, team)
+    return Rim(grid, contact[inner], rows, columns, extent)
 
 
 def _lines_around(contact: Bools, axis: int, *, repeats: bool) -> tuple[Integers, Integers, slice]:
@@ -220,78 +186,3 @@ def _turn(contact: Bools, axis: int) -> Integers:
 def _with_margin(lines: Integers, count: int) -> Integers:
     """Given lines, and more before and behind them."""
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
-
-
-def _segment_of(chords: Floats, contact: Bools, gap: Floats) -> float:
-    """Area between the rim and its chords per quarter turn, less the error of the crossings."""
-    along_x, along_y = chords.tolist()
-    if not along_x:
-        return SEGMENTS
-    by_gap, beyond = 1.0, np.isinf(gap)
-    if beyond.any():
-        # Crossings at the body's outline have no such error.
-        lines = (contact, beyond), (contact.T, beyond.T)
-        pairs = [pair for c, b in lines for pair in ((c[1:], b[:-1]), (c[:-1], b[1:]))]
-        at_end = sum(np.count_nonzero(inner & outer) for inner, outer in pairs)
-        all_ends = 2 * np.count_nonzero(contact) * (1 / along_x + 1 / along_y)
-        by_gap = max(1 - at_end / all_ends, 0.0)
-    loss = SEGMENT_LOSS / max(math.sqrt(along_x * along_y), 1.0)
-    return SEGMENTS * (1 - by_gap * min(loss, 1 - LEAST_SEGMENTS))
-
-
-def _extent_of(
-    contact: Bools, crossings: tuple[Floats, Floats], segment: float, team: Team
-) -> Extent:
-    """Extent of a contact by the crossings of its rim along x and y."""
-    if team.core is not None:
-        return Extent(segment, *team.core.measure_rim(contact, *crossings, segment))
-    rows, columns = (np.flatnonzero(contact.any(axis=axis)) for axis in (1, 0))
-    along_x = _along_first(rows, contact, crossings[0])
-    along_y = _along_first(columns, contact.T, crossings[1].T)
-    squares = _enclosed_squares(contact, crossings, segment)
-    return Extent(segment, squares, along_x, along_y, len(rows), len(columns))
-
-
-def _enclosed_squares(inside: Bools, crossings: tuple[Floats, Floats], segment: float) -> float:
-    """Squares between four neighbouring centres, each counted by its enclosed part."""
-    pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
-    count = pairs[:, 1:] + pairs[:, :-1]
-    i, j = places((count & 3) != 0)  # neither none nor all four
-    along_x, along_y = crossings
-    edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
-    edges[np.isnan(edges)] = 0.0  # no crossing
-    u, v = edges[0] + edges[1], edges[2] + edges[3]
-    # One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the two
-    # edges that leave their side. Three: the square without a triangle. Signed areas where a
-    # crossing lies beyond the square: their sum is that of the polygons.
-    corners = count[i, j]
-    triangle, rest = u * v / 2 + segment, 1 - (1 - u) * (1 - v) / 2 - segment
-    enclosed = np.choose(corners - 1, [triangle, (u + v) / 2, rest])
-    # Opposite corners inside: two separate triangles.
-    first = inside[i, j]
-    apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
-    if apart.size:
-        left, right, lower, upper = edges[:, apart]
-        ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
-        enclosed[apart] = ends / 2 + 2 * segment
-    return float(np.count_nonzero(count == 4) + enclosed.sum())
-
-
-def _along_first(touched: Integers, contact: Bools, crossings: Floats) -> float:
-    """Extent along the first axis, in cells: the farthest crossings both ways of touched rows."""
-    if not touched.size:
-        return 0.0
-    # A crossing lies between half a cell inside and one outside of its inner centre: two rows
-    # contain the extreme ones. A chord may cross its line elsewhere.
-    (from_first, first), (from_last, last) = (
-        (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
-    )
-    near, far = (
-        np.where(np.abs(each) <= 1, each, np.nan)
-        for each in (crossings[from_first:first], crossings[from_last:last])
-    )
-    starts = np.arange(from_first, first)[:, None] + 1 - near
-    ends = np.arange(from_last, last)[:, None] + far
-    upper, lower = contact[from_last:last], contact[from_first + 1 : first + 1]
-    end = np.fmax.reduce(ends[upper], initial=0.0)
-    return float(end - np.fmin.reduce(starts[lower], initial=len(contact) - 1.0))

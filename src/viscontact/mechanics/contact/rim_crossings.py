@@ -10,7 +10,6 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Integers, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.backend.team import Team
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.straight_edge import EdgeLaw, edge_laws
 
@@ -46,6 +45,15 @@ class Recession(NamedTuple):
         return Recession(*(field[block] for field in self))
 
 
+class RimFields(NamedTuple):
+    """Fields of a block of cells around a contact from which its rim is located."""
+
+    contact: Bools
+    gap: Floats  # [m]
+    recession: Recession | None
+    ends: tuple[Floats, Floats] | None  # distances to the body's outline along x and y, in cells
+
+
 @dataclass(frozen=True, eq=False)
 class _Intervals:
     """Intervals between neighbouring centres in which contact changes, along x, then along y."""
@@ -67,68 +75,36 @@ class _Intervals:
         return _Intervals(int(np.searchsorted(chosen, self.count_along_x)), *each)
 
 
-def locate_rim(
-    grid: Grid,
-    contact: Bools,
-    gap: Floats,
-    recession: Recession | None,
-    ends: tuple[Floats, Floats] | None,
-    team: Team,
-    mirrored: tuple[bool, bool] = (False, False),
-) -> tuple[Floats, Floats]:
-    """Distances from inner centres to the rim along x, y, in cells; `ends`: to the outline.
-
-    In a block that is `mirrored` about its middle half of the work is done by copies.
-    """
-    if team.core is not None:
-        fields = contact, gap, recession, ends
-        return _compiled_crossings(grid, fields, team.core, mirrored)
+def locate_rim(grid: Grid, fields: RimFields) -> tuple[Floats, Floats]:
+    """Distances from inner centres to the rim along x, shape (nx - 1, ny), and y, in cells."""
+    contact, gap, recession, ends = fields
     laws = [_laws(grid.cell_size, side, periodic=all(grid.periodic)) for side in (0, 1)]
     intervals = _changes(contact)
     touches, gaps = _pad(contact, outside=False).ravel(), _pad(gap, outside=np.inf)
     located, slope = _by_gaps(laws[0], intervals, touches, gaps.ravel())
     if recession is not None:
-        at, *found = _where_receding(laws[1], intervals, recession, located)
-        located[at], slope[at] = found
+        at, *by_pressures = _where_receding(laws[1], intervals, recession, located)
+        located[at], slope[at] = by_pressures
     at_end = np.flatnonzero(np.isinf(gaps.ravel()[intervals.outer]))
     if ends is not None and at_end.size:
         located[at_end] = _body_ends(ends, intervals.some(at_end), gaps.shape[1])
-    fields = np.full((2, gaps.size), np.nan)
+    found = np.full((2, gaps.size), np.nan)
     # A line that the rim crosses at a small angle does not locate it well.
     oblique = np.abs(slope) > 1
-    _write_intervals(fields, intervals, np.where(oblique, np.nan, located))
+    _write_intervals(found, intervals, np.where(oblique, np.nan, located))
     chosen = np.flatnonzero(oblique)
     if chosen.size:
         lines = intervals.some(chosen)
-        chords = _by_chords(fields, lines, touches, slope[chosen] > 0)
-        _write_intervals(fields, lines, np.where(np.isnan(chords), located[chosen], chords))
+        chords = _by_chords(found, lines, touches, slope[chosen] > 0)
+        _write_intervals(found, lines, np.where(np.isnan(chords), located[chosen], chords))
     inside = slice(PADDING, -PADDING)
-    along_x, along_y = fields.reshape(2, *gaps.shape)[:, inside, inside]
+    along_x, along_y = found.reshape(2, *gaps.shape)[:, inside, inside]
     return along_x[:-1], along_y[:, :-1]
 
 
-def _compiled_crossings(
-    grid: Grid,
-    fields: tuple[Bools, Floats, Recession | None, tuple[Floats, Floats] | None],
-    core: ModuleType,
-    mirrored: tuple[bool, bool],
-) -> tuple[Floats, Floats]:
-    """The same by the compiled core."""
-    contact, gap, recession, ends = fields
-    nx, ny = contact.shape
-    found = np.empty((nx - 1, ny)), np.empty((nx, ny - 1))
-    outline = None
-    if ends is not None:
-        outline = np.ascontiguousarray(ends[0]), np.ascontiguousarray(ends[1])
-    laws = _compiled_laws(*grid.cell_size, core, periodic=all(grid.periodic))
-    receding = None if recession is None else tuple(recession)
-    core.locate_rim(contact, gap, *laws, receding, outline, mirrored, *found)
-    return found
-
-
 @lru_cache(maxsize=64)
-def _compiled_laws(dx: float, dy: float, core: ModuleType, *, periodic: bool) -> tuple[Any, ...]:
-    """Laws of the gaps along x and y, and of the pressures."""
+def compiled_laws(dx: float, dy: float, core: ModuleType, *, periodic: bool) -> tuple[Any, ...]:
+    """Laws of the gaps along x and y, and of the pressures, for the compiled core."""
     laws = (law for side in (0, 1) for law in _laws((dx, dy), side, periodic=periodic))
     return tuple(core.EdgeLaw(law.threshold, law.growth, law.slopes, law.offsets) for law in laws)
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from viscontact.backend.arrays import Bools
-from viscontact.mechanics.contact.rim import mean_chords
+from viscontact.mechanics.contact.rim_extent import mean_chords
 
 #: Fewer cells across the largest contact than these cause a warning.
 WARNING_CELLS = 10

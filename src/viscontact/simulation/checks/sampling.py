@@ -74,9 +74,9 @@ class Sampling:
     def reaches_beyond(self, motion: Floats, depth: float) -> bool:
         """True if the moved body lies deeper than a depth [m] at a point outside the grid."""
         # Called at every step; nearly always no ring comes close, and no point at all.
-        along_x, along_y, gap = self._bounds
+        along_x, along_y, least_gap = self._bounds
         approach, tilt_x, tilt_y = motion.tolist()
-        if approach + abs(tilt_x) * along_x + abs(tilt_y) * along_y - gap <= depth:
+        if approach + abs(tilt_x) * along_x + abs(tilt_y) * along_y - least_gap <= depth:
             return False
         far_x, far_y, least = self._rings
         deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least

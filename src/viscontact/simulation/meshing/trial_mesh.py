@@ -16,7 +16,8 @@ from viscontact.bodies.loads import LoadPoint
 from viscontact.mechanics.contact.body_edge import END_DEPTH, end_cells, trace_outline
 from viscontact.mechanics.contact.domain import ContactDomain, mirrored_axes
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
-from viscontact.mechanics.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.mechanics.contact.rim import Rim, trace_rim
+from viscontact.mechanics.contact.rim_extent import mean_chords
 from viscontact.mechanics.halfspace.ended_half_space import has_even_ends, planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.simulation.meshing.body_fit import fitted_extents, grid_with_ends

@@ -9,8 +9,9 @@ import numpy as np
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.resistance import is_even, reaches_end, resistance_by_slope
-from viscontact.mechanics.contact.rim import Rim, mean_chords, trace_rim
+from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.contact.rim_crossings import Recession
+from viscontact.mechanics.contact.rim_extent import mean_chords
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.simulation.steady_motion.contact import SteadyContact
 from viscontact.simulation.steady_motion.problem import SteadyProblem

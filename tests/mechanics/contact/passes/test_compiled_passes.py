@@ -330,7 +330,7 @@ def test_arrays_of_another_kind_or_shape_are_refused() -> None:
     with pytest.raises(ValueError, match="as long as its part, or twice as long"):
         core.unfold(double, np.zeros((5, 11)))
     with pytest.raises(ValueError, match="do not have the same shape"):
-        core.measure_rim(flags, double, double, 0.1)
+        core.segment(flags, np.zeros((4, 6)), (0.1, 2.0, 0.1))
     with pytest.raises(ValueError, match="fields of one size"):
         core.weighted_sum(double, [1.0], [np.zeros((4, 6))], 1)
     with pytest.raises(ValueError, match="each field has a weight"):
