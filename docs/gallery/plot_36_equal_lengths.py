@@ -65,6 +65,26 @@ axes.set(xlabel="x [mm]", ylabel="line load / mean [-]", ylim=(0, 3), xlim=(-2.1
 legend = axes.legend(frameon=False, loc="upper center")
 
 # %%
+# Below the end
+# -------------
+#
+# Von Mises stress along the track, below the middle of the contact. At a free end the material is
+# not held along x, and is stressed more than in the middle, though the pressure is lower there: at
+# its surface for ν = 0.3, below it for ν = 0.5. Beyond the end there is no body, and no stress.
+
+figure, panels = plt.subplots(2, 1, figsize=(6, 3.8), sharex=True, layout="constrained")
+for axes, ratio in zip(panels, (0.3, 0.5), strict=True):
+    inside_track = vc.section_stresses(ended[ratio], np.linspace(0.0, 0.6e-3, 41), y=0.0)
+    stress = inside_track.von_mises[0] / 1e6
+    filled = axes.contourf(stress.x * 1e3, stress.z * 1e3, stress, levels=12, cmap="viridis")
+    figure.colorbar(filled, ax=axes, label="von Mises [MPa]")
+    axes.set(ylabel="depth [mm]", xlim=(-2.1, 2.1), ylim=(0.6, 0), title=f"ν = {ratio:g}")
+    at_end = vc.section_stresses(ended[ratio], [0.1e-3], x=length / 2)
+    left = float(np.abs(at_end.stress_xx).max() / ended[ratio].peak_pressure[0])
+    assert left < 1e-4
+text = panels[-1].set_xlabel("x [mm]")
+
+# %%
 # Off the middle
 # --------------
 #

@@ -11,7 +11,7 @@ from viscontact.drawing.svg.html import element
 from viscontact.report.still_figures import still_figures
 from viscontact.results.formatting import format_with_error
 from viscontact.results.peak_stress import PeakStress, peak_stress
-from viscontact.results.recorded_case import is_layered
+from viscontact.results.recorded_case import has_ends, is_layered
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stress_source import at_largest_traction
 from viscontact.units.formatting import format_quantity
@@ -43,11 +43,12 @@ def stress_text(ds: xr.Dataset, found: PeakStress) -> str:
     value = format_with_error(found.value, found.error, "Pa")
     place, depth = run_axis(ds).place(found.place), format_quantity(found.depth, "m", 2)
     plane = f" on the plane along {found.plane}; the drawing is across the contact"
+    body = "body, which ends along x," if has_ends(ds) else "half-space"
     pulled = at_largest_traction(ds)
     if "creepage" in pulled.coords:
         place += f" and a creepage of {100 * float(pulled['creepage']):.3g} %"
     return (
         f"On the planes along x and y through the largest pressure of the run, at {place}, "
-        f"the largest von Mises stress in the half-space is {value}, {depth} deep"
+        f"the largest von Mises stress in the {body} is {value}, {depth} deep"
         f"{plane if found.plane else ''}."
     )

@@ -88,9 +88,12 @@ def interface_stresses(
         "interface_shear_stress_x": (grid, along),
         "interface_shear_stress_y": (grid, across),
         "interface_shear_stress": (grid, shear),
-        "largest_interface_tension": (grid[:2], np.maximum(normal, 0.0).max(axis=(2, 3))),
-        "largest_interface_compression": (grid[:2], np.maximum(-normal, 0.0).max(axis=(2, 3))),
-        "largest_interface_shear": (grid[:2], shear.max(axis=(2, 3))),
+        "largest_interface_tension": (grid[:2], np.nanmax(np.maximum(normal, 0.0), axis=(2, 3))),
+        "largest_interface_compression": (
+            grid[:2],
+            np.nanmax(np.maximum(-normal, 0.0), axis=(2, 3)),
+        ),
+        "largest_interface_shear": (grid[:2], np.nanmax(shear, axis=(2, 3))),
     }
     variables = {
         name: (*each, {"units": "Pa", "long_name": MEANINGS[name]}) for name, each in values.items()

@@ -8,7 +8,7 @@ import xarray as xr
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.results.last_cycle_values import first_largest
-from viscontact.results.recorded_case import recorded_grid
+from viscontact.results.recorded_case import recorded_ends, recorded_grid
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.stress_source import LOADS, at_largest_traction
@@ -16,6 +16,9 @@ from viscontact.results.stresses import REACH, section_stresses
 
 #: Number of depths of the search, and of those around the deepest of them.
 _DEPTHS, _CLOSE = 14, 7
+
+#: Body whose stress is found.
+BODY = "material"
 
 #: Relative difference of stresses of two planes that are equal.
 _EQUAL = 1e-3
@@ -137,23 +140,44 @@ def _on_planes(field: xr.Dataset, depths: Floats, name: str) -> tuple[Floats, Fl
     i, j = np.unravel_index(int(cells.values.argmax()), cells.shape)
     along = section_stresses(field, depths, y=float(field["y"][j]))[name].values[0]
     across = section_stresses(field, depths, x=float(field["x"][i]))[name].values[0]
-    return along.max(axis=1), across.max(axis=1)
+    # There is no stress beyond the ends of a body.
+    return np.nanmax(along, axis=1), np.nanmax(across, axis=1)
 
 
 def _coarser(field: xr.Dataset) -> xr.Dataset | None:
-    """Loads on cells of twice the size; None where a period has an odd number of cells."""
+    """Loads on cells of twice the size; None where a period or a body has an odd number."""
     grid = recorded_grid(field)
     for axis, periodic, count in zip("xy", grid.periodic, grid.shape, strict=True):
         if count == 1:
             continue
-        if count % 2:
-            if periodic:
-                return None
-            beyond = float(field[axis][-1]) + _cell(field, axis)
-            field = field.pad({axis: (0, 1)}, constant_values=0.0)
-            field = field.assign_coords({axis: [*field[axis].values[:-1], beyond]})
+        odd = _parities_of_ends(field) if axis == "x" else set()
+        if len(odd) > 1:
+            return None
+        first = max(odd, default=0)
+        if (count + first) % 2 and periodic:
+            return None
+        for before, after in ((first, 0), (0, (count + first) % 2)):
+            field = _padded(field, axis, before, after)
         field = field.coarsen({axis: 2}).mean()
     return field
+
+
+def _parities_of_ends(field: xr.Dataset) -> set[int]:
+    """Rows of cells from the first one to each end of the body, odd (1) or even (0)."""
+    begin, cell = float(field["x"][0]), _cell(field, "x")
+    places = [end.place for end in recorded_ends(field) if end.part == BODY]
+    return {round((place - begin) / cell + 0.5) % 2 for place in places}
+
+
+def _padded(field: xr.Dataset, axis: str, before: int, after: int) -> xr.Dataset:
+    """Loads on a grid with some more cells, which bear nothing."""
+    if not before + after:
+        return field
+    places, cell = field[axis].values, _cell(field, axis)
+    begin = [places[0] - cell] * before
+    end = [places[-1] + cell] * after
+    padded = field.pad({axis: (before, after)}, constant_values=0.0)
+    return padded.assign_coords({axis: np.concatenate([begin, places, end])})
 
 
 def _cell(field: xr.Dataset, axis: str) -> float:

@@ -9,7 +9,8 @@ from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered, at_temperature
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.problem.surface import clock_of
+from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.problem.surface import clock_of, ended_response
 from viscontact.results.descriptions import rebuild
 from viscontact.results.recorded_case import case_of
 
@@ -58,3 +59,13 @@ def recorded_object(results: Result, part: str, figure: str) -> Any:
     temperature = recorded_temperature(results)
     constant = temperature is not None and temperature.is_constant
     return at_temperature(found, temperature.range[0]) if temperature and constant else found
+
+
+def recorded_end_response(results: Result, part: str, figure: str) -> EndedResponse | None:
+    """Response of a body of a result that ends along x; None of one without ends."""
+    described = case_of(results).get(part) or {}
+    if described.get("type") != "Body":
+        return None
+    body = rebuild(described)
+    assert isinstance(body, Body)
+    return ended_response(body, recorded_object(results, part, figure))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -15,7 +16,10 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
+from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_load import EndedLoad
 from viscontact.mechanics.halfspace.layered_shear_stress import LayeredShearStress
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stack_waves import interface_depths
@@ -29,13 +33,12 @@ from viscontact.mechanics.halfspace.stress_response import (
 from viscontact.mechanics.problem.series_body import ANY_TIMES, span_of
 from viscontact.mechanics.problem.stress_history import StressHistory, stress_history
 from viscontact.mechanics.problem.surface import as_elastic
-from viscontact.results.recorded_case import (
-    has_ends,
-    is_layered,
-    recorded_grid,
-    recorded_poisson_ratio,
+from viscontact.results.recorded_case import is_layered, recorded_grid, recorded_poisson_ratio
+from viscontact.results.recorded_objects import (
+    recorded_clock,
+    recorded_end_response,
+    recorded_object,
 )
-from viscontact.results.recorded_objects import recorded_clock, recorded_object
 from viscontact.results.run_axis import run_axis
 from viscontact.units.numbers import real_array
 
@@ -62,11 +65,21 @@ class StressSource:
     history: StressHistory | None = None  # weights of the load of each response
     clock: Clock = TIME  # of the creep of the body
     signs: tuple[float, ...] = (1.0,)  # of the fields `LOADS` that act on the responses
+    ended: EndedResponse | None = None  # a body that ends along x, under pressure alone
 
     @property
     def splitting_error(self) -> float:
         """Bound of the relative error of the sum [-]; 0 if exact."""
         return 0.0 if self.history is None else self.history.error
+
+    @property
+    def errors_of_ends(self) -> dict[str, float]:
+        """What the result states on the ends of a body: their operator, and stress that is left."""
+        if self.ended is None:
+            return {}
+        names = ("ends_error", "end_stress_left")
+        given = {name: self.results.attrs.get(name) for name in names}
+        return {name: float(value) for name, value in given.items() if value is not None}
 
     @property
     def interfaces(self) -> tuple[float, ...]:
@@ -113,8 +126,17 @@ class StressSource:
         y: float | None,
         progress: Progress | None = None,
     ) -> Stress:
-        """Stresses on a vertical plane at stored instants by index; (instants, nz, nx or ny)."""
+        """Stresses on a vertical plane at stored instants by index; (instants, nz, nx or ny).
+
+        NaN beyond the ends of a body.
+        """
         bodies = len(self.responses)
+        if self.ended is not None:
+            load = EndedLoad(self.ended, self._loads(places)[0], self.grid)
+            below = np.atleast_1d(np.asarray(depths, dtype=np.float64))
+            return halfspace.ended_stress.ended_stress_on_section(
+                load, below, x=x, y=y, progress=progress
+            )
         return self._sum(
             stress_on_section(
                 *(fields, self.grid, depths, body),
@@ -129,6 +151,9 @@ class StressSource:
 
     def on_plane(self, places: Sequence[int], depth: float) -> Stress:
         """Stresses on a plane parallel to the surface; (instants, nx, ny)."""
+        if self.ended is not None:
+            load = EndedLoad(self.ended, self._loads(places)[0], self.grid)
+            return halfspace.ended_stress.ended_stress_on_plane(load, depth)
         return self._sum(
             stress_on_plane(fields, self.grid, depth, body)
             for fields, body in zip(self._loads(places), self.responses, strict=True)
@@ -222,11 +247,12 @@ def stress_source(
         )
     if "creepage" in results.dims:
         results = results.isel(creepage=0)
-    if has_ends(results, body):
-        raise ValueError(
-            "stresses: this body ends along x, and stresses near an end are not available; for "
-            "those far from it, run the same case with a material without ends"
-        )
+    ended = recorded_end_response(results, body, "stresses")
+    if ended is not None:
+        ratio = ended.poisson_ratio if poisson_ratio is None else poisson_ratio
+        ended = replace(ended, poisson_ratio=ratio)
+        own = halfspace.ended_stress.response_of(ended)
+        return StressSource(results, (own,), getattr(ended, "stack", None), ended=ended)
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio
         signs = _signs(results, body)

@@ -55,14 +55,15 @@ def section_stresses(
     -------
     xarray.Dataset
         ``stress_xx`` ... ``stress_xy`` (tension positive), ``von_mises`` and ``max_shear`` [Pa]
-        over (time, z, x), or (time, z, y) on a plane of given x.
+        over (time, z, x), or (time, z, y) on a plane of given x; NaN beyond the ends of a body.
 
     Raises
     ------
     ValueError
         If no pressure is stored, Poisson's ratio is not known or varies in time, layers creep
-        differently and pressure is stored at some instants only, a depth is in a rigid base, or an
-        argument is invalid.
+        differently and pressure is stored at some instants only, layers end at a free face, a depth
+        is in a rigid base or more than 50 half lengths below a body between two ends, x lies beyond
+        an end, or an argument is invalid.
 
     Notes
     -----
@@ -71,6 +72,10 @@ def section_stresses(
     `viscontact.mechanics.halfspace.stress`. In layers that creep
     differently they follow from its history, in terms whose relative error is the attribute
     ``splitting_error``: the pressure of all instants from time 0 on has to be stored.
+
+    A body that ends has the stresses of its pressure with all images about its ends, and of what
+    frees its free ends (`viscontact.mechanics.halfspace.ended_stress`). The attributes
+    ``ends_error`` and ``end_stress_left`` are those of the result.
 
     Examples
     --------
@@ -103,7 +108,7 @@ def section_stresses(
         "z": ("z", below, depth),
         along: results[along],
     }
-    attributes = {"splitting_error": source.splitting_error}
+    attributes = {"splitting_error": source.splitting_error, **source.errors_of_ends}
     return xr.Dataset(_variables(found, along), coords=coordinates, attrs=attributes)
 
 

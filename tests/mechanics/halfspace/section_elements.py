@@ -34,7 +34,7 @@ class LayerSection:
 
     def displacements(self, wave: float, loaded: int, rows: list[int]) -> Array:
         """Mean displacement of rows under a unit pressure on one of them, times the modulus."""
-        stiffness = _stiffness(self._ratio, wave).assemble(self._basis)
+        stiffness = wave_stiffness(self._ratio, wave).assemble(self._basis)
         solver = splu(stiffness[self._free][:, self._free].tocsc())
         found = np.zeros(self._basis.N)
         found[self._free] = solver.solve(self._means(loaded)[self._free])
@@ -50,7 +50,7 @@ class LayerSection:
         return skfem.LinearForm(form).assemble(self._top)
 
 
-def _stiffness(poisson_ratio: float, k: float) -> skfem.BilinearForm:
+def wave_stiffness(poisson_ratio: float, k: float) -> skfem.BilinearForm:
     dilatant = 2 * poisson_ratio / (1 - 2 * poisson_ratio)
 
     def strains(u: Array) -> tuple[Array, ...]:

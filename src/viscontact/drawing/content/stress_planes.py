@@ -181,6 +181,7 @@ def _section(
     middle = (front + back) / 2 if is_along_y else (left + right) / 2
     peak = across[_place_of_peak(snapshot)[is_along_y]]
     near = (np.abs(across - middle) <= _ASIDE * half_width) & (np.abs(across - peak) <= aside)
+    near &= np.isfinite(stress[0])  # within the ends of a body
     return StressPlane(
         snapshot.time,
         across[near],

@@ -1,4 +1,4 @@
-from . import end_certificate, free_end, layer_end, smooth_kernel, strip, strip_basis
+from . import end_certificate, ended_stress, free_end, layer_end, smooth_kernel, strip, strip_basis
 from .end_correction import EndCorrection, MovingEndCorrection, end_basis, ends_error
 from .periodic_influence import periodic_influence_coefficient
 from .strip_influence import strip_coefficient
@@ -8,6 +8,7 @@ __all__ = [
     "MovingEndCorrection",
     "end_basis",
     "end_certificate",
+    "ended_stress",
     "ends_error",
     "free_end",
     "layer_end",

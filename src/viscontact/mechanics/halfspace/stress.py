@@ -31,7 +31,10 @@ TOGETHER = 100e6
 
 @dataclass(frozen=True, eq=False)
 class Stress:
-    """Stress tensors at points: components xx, yy, zz, yz, xz, xy, tension positive [Pa]."""
+    """Stress tensors at points: components xx, yy, zz, yz, xz, xy, tension positive [Pa].
+
+    NaN where there is no body.
+    """
 
     components: Floats
 
@@ -53,7 +56,10 @@ class Stress:
         xx, yy, zz, yz, xz, xy = self.components
         rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
         tensors = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-        return np.moveaxis(np.linalg.eigvalsh(tensors)[..., ::-1], -1, 0)
+        known = np.isfinite(tensors).all(axis=(-2, -1))
+        tensors[~known] = 0.0
+        found = np.moveaxis(np.linalg.eigvalsh(tensors)[..., ::-1], -1, 0)
+        return np.where(known, found, np.nan)
 
     @property
     def max_shear(self) -> Floats:

@@ -38,10 +38,15 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
+from viscontact.mechanics.halfspace.strip_slab import slab
 
 #: Range of k W in which faces act on each other and G is tabulated, and number of the places in it,
 #: Chebyshev's in ln k W. Above, each face is the end of a body that goes on.
 LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 18
+
+#: Lowest k W at which loads on the faces are solved, even and odd ones, which grow as 1/(k W), with
+#: the error of the kernels (`long_strip`).
+LONGEST_WAVES = 0.002, 0.02
 
 #: First place on the faces, in 1/k, and on the surface, in W; ratio of the ends of panels; last
 #: place on the faces, in 1/k.
@@ -57,9 +62,6 @@ FAR = 50.0
 
 #: Parts of a panel of Z in which functions of ln Z are taken as polynomials of Z.
 PARTS = 2
-
-#: Arguments below which sinh x cosh x - x is a series.
-SMALL = 0.03
 
 #: Places nearer to a face than this, in W, do not count in the stated error: no cell is so short.
 SHORTEST = 1e-4
@@ -90,6 +92,11 @@ class StripTable:
         """Weights of the coefficients of `faces` and `tops` at w = k W."""
         inside = min(max(wave, LOWEST_WAVE), HIGHEST_WAVE)
         return np.asarray(chebyshev.chebvander(_scaled(np.array([inside])), WAVES - 1)[0])
+
+    def loads(self, wave: float) -> tuple[Floats, Floats]:
+        """Matrices of the load on the faces and of the stress by it above, at w = k W."""
+        powers = self.chebyshev(wave)
+        return np.tensordot(powers, self.faces, axes=1), np.tensordot(powers, self.tops, axes=1)
 
     @property
     def highest_wave(self) -> float:
@@ -157,29 +164,25 @@ def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
 def _added(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floats, Floats]:
     """G at w = k W, between the nodes of the surface; load on the faces, and stress by it above."""
     face = _face()
+    stress, freed, sent = freeing_loads(wave, poisson_ratio, sign)
+    rate = np.hypot(1.0, face.waves)
+    sinh, _, denominator, _ = slab(rate * wave, sign)
+    compliance = 4 / np.pi * face.wave_weights / rate * sinh**2 / denominator
+    left, right = face.to_waves @ stress, face.to_waves @ freed
+    return np.asarray(left.T @ (compliance[:, None] * right)), freed, sent
+
+
+def freeing_loads(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floats, Floats]:
+    """Stress on the faces at w = k W, load on them that frees them, and stress by it above."""
+    face = _face()
     stress = _stress_on_face(wave, poisson_ratio, sign)
     weighted = stress * (wave * surface_panels().weights)
     above = _stress_on_surface(wave, poisson_ratio, sign)
     returned = weighted @ above
     returned *= face.panels.weights
     freed = np.linalg.solve(np.eye(len(returned)) - returned, stress)
-    rate = np.hypot(1.0, face.waves)
-    sinh, _, denominator, _ = _slab(rate * wave, sign)
-    compliance = 4 / np.pi * face.wave_weights / rate * sinh**2 / denominator
-    left, right = face.to_waves @ stress, face.to_waves @ freed
     sent = above @ (face.panels.weights[:, None] * freed)
-    added = np.asarray(left.T @ (compliance[:, None] * right))
-    return added, np.asarray(freed), sent
-
-
-def _slab(x: Floats, sign: float) -> tuple[Floats, Floats, Floats, Floats]:
-    """Sinh x, cosh x and D times 2 or 4 powers of exp(-x), and exp(-2x); exchanged if odd."""
-    decay = np.exp(-2 * x)
-    denominator = 1 - decay**2 + sign * 4 * x * decay
-    if sign < 0:  # without cancellation
-        series = 4 * decay * x**3 * (2 / 3 + x**2 * (2 / 15 + x**2 * 4 / 315))
-        denominator = np.where(x < SMALL, series, denominator)
-    return 1 - sign * decay, 1 + sign * decay, denominator, decay
+    return stress, np.asarray(freed), sent
 
 
 def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
@@ -216,14 +219,14 @@ def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats
     zeta, cosines, _ = face.images(wave)
     rate = np.hypot(1.0, zeta)
     x, xi = rate * wave, rate * (wave - along)
-    sinh, cosh, denominator, decay = _slab(x, sign)
+    sinh, cosh, denominator, decay = slab(x, sign)
     own, other = np.exp(-along * rate), sign * decay * np.exp(along * rate)
     half_sum = sinh * (own + other) / denominator
     across = ((sinh + x * cosh) * (own + other) - xi * sinh * (own - other)) / denominator
     along_z, along_y = (zeta / rate) ** 2, 2 * poisson_ratio / rate**2
-    slab = along_z * (2 * half_sum - across) + along_y * half_sum
+    of_slab = along_z * (2 * half_sum - across) + along_y * half_sum
     one_face = (along_z * (1 - along * rate) + along_y) * own
-    return np.asarray(2 / np.pi * (near + (slab - one_face) @ cosines.T))
+    return np.asarray(2 / np.pi * (near + (of_slab - one_face) @ cosines.T))
 
 
 @lru_cache(maxsize=WAVES)
@@ -261,8 +264,9 @@ def surface_panels() -> LogPanels:
 
 @lru_cache(maxsize=1)
 def _face() -> Face:
+    """Places on the faces, and their transforms."""
     panels = LogPanels.over(ON_FACE, DEEPEST, RATIO)
-    borders = _borders(OF_IMAGES[0], OF_IMAGES[1] / LOWEST_WAVE, IMAGE_RATIO)
+    borders = _borders(OF_IMAGES[0], OF_IMAGES[1] / LONGEST_WAVES[0], IMAGE_RATIO)
     waves = oscillation_weights(borders, NODES, panels.places)
     of_faces = _borders(OF_FACES[0], OF_FACES[1] / ON_FACE, FACE_RATIO)
     zeta, weights = panel_nodes(of_faces, NODES)
