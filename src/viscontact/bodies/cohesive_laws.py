@@ -63,6 +63,10 @@ class CohesiveLaw(ABC):
     def slope(self, gap: Floats, across: Floats) -> Floats:
         """Derivative of that traction by the gap [Pa/m]."""
 
+    def traction_and_slope(self, gap: Floats) -> tuple[Floats, Floats]:
+        """Both at a gap, of a law that does not end abruptly."""
+        return self.traction(gap, gap), self.slope(gap, gap)
+
     def slope_across(self, gap: Floats, across: Floats) -> Floats:
         """Derivative of that traction by the change of the gap over a cell [Pa/m]."""
         return np.zeros(np.broadcast_shapes(gap.shape, across.shape))
@@ -82,11 +86,16 @@ class Exponential(CohesiveLaw):
 
     def traction(self, gap: Floats, across: Floats) -> Floats:
         """See `CohesiveLaw.traction`."""
-        return np.asarray(self.strength * np.exp(-gap / self.range))
+        return np.asarray(self.strength * np.exp(gap * (-1 / self.range)))
 
     def slope(self, gap: Floats, across: Floats) -> Floats:
         """See `CohesiveLaw.slope`."""
         return -self.traction(gap, across) / self.range
+
+    def traction_and_slope(self, gap: Floats) -> tuple[Floats, Floats]:
+        """See `CohesiveLaw.traction_and_slope`."""
+        traction = self.traction(gap, gap)
+        return traction, traction * (-1 / self.range)
 
     def energy(self, gap: Floats) -> Floats:
         """See `CohesiveLaw.energy`."""

@@ -16,7 +16,8 @@ def gmres(
     """Factors of the basis vectors with which images leave least of a right side, and their number.
 
     `image` maps a basis vector to the operator's value of its preconditioned direction, which the
-    caller keeps. Ends where the norm of what is left is down to `goal`.
+    caller keeps; the memory of that value is used. Ends where the norm of what is left is down to
+    `goal`.
     """
     size = norm(right)
     basis, left, number = [right / size] if size else [], size, 0
@@ -24,12 +25,14 @@ def gmres(
     triangle, rotated = np.zeros((max_vectors, max_vectors)), np.zeros(max_vectors + 1)
     rotated[0] = size
     turns: list[tuple[float, float]] = []
+    part = np.empty_like(right)
     while left > goal and number < max_vectors:
         new = image(basis[-1])
         column = []
         for known in basis:  # modified Gram-Schmidt
             column.append(float(np.einsum("i,i->", known, new)))
-            new = new - column[-1] * known
+            np.multiply(known, column[-1], out=part)
+            new -= part
         length = norm(new)
         for row, (cosine, sine) in enumerate(turns):
             upper, lower = column[row], column[row + 1]
@@ -46,7 +49,8 @@ def gmres(
         left = abs(float(rotated[number]))
         if length == 0:
             break
-        basis.append(new / length)
+        new /= length
+        basis.append(new)
     factors = np.zeros(number)
     for row in reversed(range(number)):
         later = float(triangle[row, row + 1 : number] @ factors[row + 1 :])

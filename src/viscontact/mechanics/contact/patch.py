@@ -27,6 +27,15 @@ class PatchOperators:
         self._shape = shape
         self._convolution, self._preconditioner = convolution, preconditioner
         self._near = np.empty((0, 0), np.float32)
+        self._spare: list[Singles] = []
+
+    def spare(self, number: int) -> Singles:
+        """Field of a number without particular values, for one search at a time."""
+        # New fields of a search take longer than what is done with them: the system gives and takes
+        # back their memory each time.
+        while len(self._spare) <= number:
+            self._spare.append(np.empty(self._shape, np.float32))
+        return self._spare[number]
 
     @cached_property
     def convolution(self) -> Operator:

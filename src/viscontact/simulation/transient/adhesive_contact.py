@@ -39,6 +39,13 @@ LARGEST_CHANGE, CHANGE_WHERE_MET = 0.15, 0.005
 #: largest pull within a tenth of this error.
 LARGEST_ERROR, ERROR_ORDER = 0.01, 3
 
+#: The same of bodies that are apart and go on parting, whose state does not end.
+LARGEST_ERROR_APART = 0.05
+
+#: Length of a solved step over the longest one up to which it is kept where the pull is below this
+#: part of the largest one, whose value and instant need no steps there.
+LONGEST_KEPT, PULL_KEPT = 1.25, 0.95
+
 #: The same where the prediction is the state before, as behind a kink of the load: its error is the
 #: change, which a shorter step divides. There the pull is not the largest one.
 LARGEST_FIRST_CHANGE = 0.03
@@ -77,9 +84,9 @@ class AdhesiveContact:
         """Take the gap of the undeformed bodies on the computed cells [m]."""
         self._law, self._domain, self._tolerance = law, domain, tolerance
         self._traction: Floats | None = None
-        self._force = self._attraction = 0.0
+        self._force = self._attraction = self._largest_pull = 0.0
         self._touches = False
-        self._moves: Floats | None = None  # of a small change of the attraction [m]
+        self._returned: Guess | None = None  # the change whose factor is the stability
         touching = open_gap - open_gap.min()
         #: Force of the undeformed bodies where they touch [N].
         self._at_touch = self._sum(law.traction(touching, np.zeros(touching.shape)))
@@ -107,8 +114,8 @@ class AdhesiveContact:
             is_near = near.converged
             change = self._length(near, predicted, smooth=step.smooth) if is_near else math.inf
             jumps = not near.converged or self._change(near) > JUMP
-            if change <= 1.0 or (step.is_shortest and not jumps):
-                return AdhesiveStep(problem, near, _outcome(near), change)
+            if change <= self._longest_kept(near) or (step.is_shortest and not jumps):
+                return AdhesiveStep(problem, near, _outcome(near), min(change, 1.0))
             if not is_last:
                 return AdhesiveStep(problem, near, _outcome(near), change, is_too_long=True)
         return self._jumped(problem)
@@ -117,16 +124,18 @@ class AdhesiveContact:
         """Continue from the solution of a step."""
         self._traction = step.solution.traction
         self._force = self._sum(step.solution.found.pressure)
+        self._largest_pull = max(self._largest_pull, -self._force)
         self._attraction = self._sum(step.solution.traction)
         self._touches = bool(step.solution.in_contact.any())
         if math.isinf(step.change):
-            self._moves = None
+            self._returned = None
 
     def stability(self, step: AdhesiveStep) -> float:
         """Factor by which a small change of the attraction in a step returns; NaN if unknown."""
         if step.outcome not in (Outcome.CONVERGED, Outcome.NO_CONTACT):
             return math.nan
-        factor, self._moves = stability(step.problem, self._domain, step.solution, self._moves)
+        posed = step.problem, self._domain, step.solution
+        factor, self._returned = stability(*posed, self._returned)
         return factor
 
     def restart_data(self) -> RestartData:
@@ -135,19 +144,22 @@ class AdhesiveContact:
             "traction": self._traction,
             "force": self._force,
             "attraction": self._attraction,
+            "largest_pull": self._largest_pull,
             "touches": self._touches,
-            "moves": self._moves,
+            "returned": self._returned and vars(self._returned),
         }
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data of the same run."""
         self._traction, self._force = restart_data["traction"], restart_data["force"]
         self._attraction = restart_data["attraction"]
-        self._touches, self._moves = restart_data["touches"], restart_data["moves"]
+        self._largest_pull = restart_data["largest_pull"]
+        self._touches, returned = restart_data["touches"], restart_data["returned"]
+        self._returned = returned and Guess(**returned)
 
     def map_fields(self, enlargement: GridEnlargement) -> None:
         """Continue on a larger grid."""
-        self._domain, self._moves = enlargement.large, None
+        self._domain, self._returned = enlargement.large, None
         if self._traction is not None:
             self._traction = enlargement.pressure(self._traction)
 
@@ -194,12 +206,19 @@ class AdhesiveContact:
             return self._change(solution) / ABRUPT_CHANGE
         pulled = float(solution.predicted) * self._domain.whole.cell_area
         error = self._apart(solution, predicted, pulled * self._domain.symmetry_count)
-        by_error = float(np.power(error / LARGEST_ERROR, 1 / ERROR_ORDER))
+        touches = bool(solution.in_contact.any())
+        parts = not (touches or self._touches) and self._sum(solution.traction) < self._attraction
+        largest_error = LARGEST_ERROR_APART if parts else LARGEST_ERROR
+        by_error = float(np.power(error / largest_error, 1 / ERROR_ORDER))
         if not smooth:
             by_error = error / LARGEST_FIRST_CHANGE
-        meets = bool(solution.in_contact.any()) != self._touches
-        largest = CHANGE_WHERE_MET if meets else LARGEST_CHANGE
+        largest = CHANGE_WHERE_MET if touches != self._touches else LARGEST_CHANGE
         return max(by_error, self._change(solution) / largest)
+
+    def _longest_kept(self, solution: AdhesiveSolution) -> float:
+        """Length of a solved step over the longest one up to which it is not repeated."""
+        pulls_most = -self._sum(solution.found.pressure) > PULL_KEPT * self._largest_pull
+        return 1.0 if pulls_most or self._law.is_abrupt else LONGEST_KEPT
 
     def _apart(self, solution: AdhesiveSolution, force: float, attraction: float) -> float:
         """Distance of a solution from a force and attraction [N], over the scale of forces [-]."""

@@ -40,6 +40,9 @@ MAX_STEPS = 20
 #: Vectors of GMRES.
 MAX_VECTORS = 40
 
+#: Spare fields of a patch that are used within one image.
+SPARE = 2
+
 #: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
 #: change, and from a residual of so many strengths on.
 REDUCTION_AFAR, REDUCTION, NEAR = 1e-1, 1e-3, 1e-2
@@ -156,14 +159,18 @@ class LinearStep:
         compliance, spacing = problem.contact.compliance, float(np.sqrt(patch.cell_area))
         self._free, self._compliance = problem.contact.constraints.free, compliance
         self._contact = np.flatnonzero(contact)
-        slope = np.where(pulled, checked.attraction.slope, 0.0)
+        slope = np.where(pulled, compliance * checked.attraction.slope, 0.0).astype(np.float32)
         self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
         #: Factor of a change of the gap, per unit compliance, in each equation [1/m].
-        self._of_gap = (compliance * slope + contact / spacing).astype(np.float32)
-        self._open = np.where(contact, 0.0, 1.0).astype(np.float32)
+        self._of_gap = slope.copy()
+        self._of_gap.ravel()[self._contact] = 1 / spacing
+        self._open = np.ones(patch.shape, np.float32)
+        self._open.ravel()[self._contact] = 0.0
         #: Equations of cells whose attraction grows with the gap are stiff [-].
-        stiff = 1 + np.maximum(slope, 0.0) * (compliance * spacing)
-        self._softened = (self._open / stiff).astype(np.float32)
+        self._softened = self._open
+        if problem.law.decreasing is not problem.law:
+            stiff = 1 + np.maximum(slope, 0.0) * np.float32(spacing)
+            self._softened = self._open / stiff
         across = checked.attraction.slopes_across
         self._across = [
             np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
@@ -216,69 +223,78 @@ class LinearStep:
         goal = INNER_TOLERANCE * tolerance * scale
         return cls(problem, domain, patch, cells, cut, lacking, goal)
 
-    def solve(self, iterate: Guess, reduction: float) -> Floats:
+    def solve(self, iterate: Guess, reduction: float, goal: float | None = None) -> Floats:
         """Add the change to the pressure of an iterate; return its motion.
 
-        On the whole grid the displacement follows, in the precision of the search.
+        Ends where the residual is reduced by a factor, or to a norm [Pa], that of the search if none
+        is given. On the whole grid the displacement follows, in the precision of the search.
         """
         here, everywhere = self._patch.cut(iterate.pressure), iterate.unit_displacement
         right = np.where(self._pulled, -(here + self._traction), 0.0).astype(np.float32)
         gap = self._gap.ravel()[self._contact] / (self._compliance * float(self._spacing))
         right.ravel()[self._contact] = -gap
         taken: list[tuple[Singles, Singles, Floats]] = []
+        spare = self._patch.operators.spare
 
         def image(vector: Singles, lacking: Floats) -> Singles:
-            change, motion = self._direction(vector.reshape(right.shape), lacking)
-            lifted = np.empty(right.shape, np.float32)
+            change, lifted, found = (spare(SPARE + 3 * len(taken) + each) for each in range(3))
+            motion = self._direction(vector.reshape(right.shape), lacking, change)
             self._patch.convolution.apply(change, into=lifted)
             self.convolutions += 1
             taken.append((change, lifted, motion))
-            return self._image(*taken[-1]).ravel()
+            self._image(*taken[-1], found)
+            return found.ravel()
 
-        left = right.ravel() - image(right, self._lacking)
-        goal = max(reduction * norm(right.ravel()), self._goal)
+        left = image(right, self._lacking)
+        np.subtract(right.ravel(), left, out=left)
+        goal = max(reduction * norm(right.ravel()), self._goal if goal is None else goal)
         factors, _ = gmres(lambda vector: image(vector, np.zeros(3)), left, goal, MAX_VECTORS)
-        motion = iterate.motion
-        for factor, (change, lifted, moved) in zip([1.0, *factors], taken, strict=True):
-            here += factor * change
+        motion, (change, lifted, moved) = iterate.motion, taken[0]
+        motion, part = motion + moved, spare(0)
+        for factor, (other, raised, moved) in zip(factors, taken[1:], strict=True):
+            change += np.multiply(other, np.float32(factor), out=part)
             motion = motion + factor * moved
             if self.is_whole:
-                everywhere += factor * lifted
+                lifted += np.multiply(raised, np.float32(factor), out=part)
+        here += change
+        if self.is_whole:
+            everywhere += lifted
         return motion
 
-    def _direction(self, vector: Singles, lacking: Floats) -> tuple[Singles, Floats]:
+    def _direction(self, vector: Singles, lacking: Floats, into: Singles) -> Floats:
         """Preconditioned change of pressure [Pa] and of the motion for a residual [Pa]."""
-        change = self._preconditioned(vector)
+        change = self._preconditioned(vector, into)
         if not self._free.any():
-            return change, np.zeros(3)
+            return np.zeros(3)
         sums = self._patch.plane.sums(change)
         motion = self._inverse @ np.where(self._free, lacking - sums, 0.0)
-        for part, share in zip(motion, self._shares, strict=True):
-            if part:
-                change += np.float32(part) * share
-        return change, motion
+        for amount, share in zip(motion, self._shares, strict=True):
+            if amount:
+                change += np.float32(amount) * share
+        return motion
 
-    def _image(self, change: Singles, lifted: Singles, motion: Floats) -> Singles:
+    def _image(self, change: Singles, lifted: Singles, motion: Floats, into: Singles) -> None:
         """Left sides of the equations for a change [Pa] and its unit displacement [Pa m]."""
-        opened = lifted
+        opened, part = lifted, self._patch.operators.spare(0)
         if motion.any():
-            opened = lifted - self._patch.plane.field(motion / self._compliance, np.float32)
-        found = opened * self._of_gap
-        found += self._open * change
+            plane = self._patch.plane.field(motion / self._compliance, np.float32)
+            opened = np.subtract(lifted, plane, out=self._patch.operators.spare(1))
+        np.multiply(opened, self._of_gap, out=into)
+        into += np.multiply(self._open, change, out=part)
         changes = changes_over_cells(opened, self._periodic) if self._across else ()
         for factor, each in zip(self._across, changes, strict=True):
-            found += factor * each
-        return found
+            into += factor * each
 
-    def _preconditioned(self, vector: Singles) -> Singles:
+    def _preconditioned(self, vector: Singles, into: Singles) -> Singles:
         """About the pressure that a residual calls for [Pa]."""
-        found = vector * self._softened
+        np.multiply(vector, self._softened, out=into)
         if self._contact.size:
-            field = np.zeros(vector.shape, np.float32)
+            field = self._patch.operators.spare(0)
+            field[...] = 0.0
             field.ravel()[self._contact] = vector.ravel()[self._contact] * self._spacing
             self._patch.preconditioner.apply(field, into=field)
-            found.ravel()[self._contact] = field.ravel()[self._contact]
-        return found
+            into.ravel()[self._contact] = field.ravel()[self._contact]
+        return into
 
     def _share(self, mode: int) -> Singles:
         """About the pressure by a unit of one rigid motion: of cells in contact, if there are."""
@@ -287,4 +303,4 @@ class LinearStep:
         pressed = self._of_gap * self._planes[mode] / self._compliance
         if self._contact.size:
             pressed *= 1 - self._open
-        return self._preconditioned(pressed.astype(np.float32))
+        return self._preconditioned(pressed.astype(np.float32), np.empty_like(self._open))

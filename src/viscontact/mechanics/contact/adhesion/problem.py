@@ -46,14 +46,14 @@ class AdhesiveProblem:
     def displacement(self, iterate: Guess, spacing: float) -> float:
         """Displacement that errors of the gap are relative to [m], on cells of an edge [m]."""
         compliance = self.contact.compliance
-        largest = compliance * float(np.abs(iterate.unit_displacement).max())
+        largest = compliance * largest_size(iterate.unit_displacement)
         # Without a load a flat punch has no pressure where attraction and contact cancel.
         of_cell = compliance * self.law.strength * spacing
         return max(self.contact.displacement_scale, largest, of_cell)
 
     def traction_scale(self, iterate: Guess) -> float:
         """Traction that errors of the traction are relative to [Pa]."""
-        largest = float(np.abs(iterate.pressure).max())
+        largest = largest_size(iterate.pressure)
         return max(self.law.strength, LARGEST_PRESSURE_SHARE * largest)
 
     def without_force(self) -> AdhesiveProblem:
@@ -85,7 +85,7 @@ def attraction(law: CohesiveLaw, gap: Floats, periodic: tuple[bool, bool]) -> At
     """Attraction at a gap [m]; of cells that overlap that at contact."""
     open_gap = np.maximum(gap, 0.0)
     if not law.is_abrupt:
-        return Attraction(law.traction(open_gap, open_gap), law.slope(open_gap, open_gap))
+        return Attraction(*law.traction_and_slope(open_gap))
     # Along its steepest direction.
     changes = changes_over_cells(open_gap, periodic)
     across = np.sqrt(sum(change**2 for change in changes))
@@ -145,24 +145,39 @@ def residual_of(
     In contact are the cells where q - g/(J d) > 0, with the cell size d.
     """
     law, contact = problem.law, problem.contact
-    gap = problem.gap(iterate, domain)
+    gap = problem.gap(iterate, domain)  # infinite outside the body, which is no contact
     pulled = attraction(law, gap, domain.periodic)
-    solid = np.isfinite(contact.open_gap)
     pressed = iterate.pressure + pulled.traction
-    in_contact = (pressed * cell_stiffness_inverse(problem, domain) > gap) & solid
-    overlap = np.where(in_contact, np.abs(gap), np.maximum(-gap, 0.0))
-    missing = np.where(in_contact, np.maximum(-pressed, 0.0), np.abs(pressed))
-    whole = domain.whole
-    force = float(np.abs(iterate.pressure).sum()) * whole.cell_area
-    lacking = problem.lacking(iterate, domain) / np.array([1.0, whole.arm, whole.arm])
+    in_contact = pressed * cell_stiffness_inverse(problem, domain) > gap
+    touching = np.flatnonzero(in_contact)
+    open_gap = gap.ravel()[touching].max(initial=0.0)
+    overlap = max(float(open_gap), -float(gap.min()))
+    tensile = -float(pressed.min())
+    pressed.ravel()[touching] = 0.0
+    missing = max(tensile, float(pressed.max()), 0.0)
+    spacing = math.sqrt(domain.whole.cell_area)
     return AdhesiveResidual(
         gap,
         pulled,
         in_contact,
-        float(overlap.max()) / problem.displacement(iterate, math.sqrt(whole.cell_area)),
-        float(missing.max()) / problem.traction_scale(iterate),
-        float(np.abs(lacking).max()) / force if force else float(np.abs(lacking).max() > 0),
+        overlap / problem.displacement(iterate, spacing),
+        missing / problem.traction_scale(iterate),
+        _imbalance(problem, domain, iterate) if contact.constraints.free.any() else 0.0,
     )
+
+
+def _imbalance(problem: AdhesiveProblem, domain: ContactDomain, iterate: Guess) -> float:
+    """What the free motions' forces lack, over the largest force [-]."""
+    whole = domain.whole
+    force = float(np.abs(iterate.pressure).sum()) * whole.cell_area
+    lacking = problem.lacking(iterate, domain) / np.array([1.0, whole.arm, whole.arm])
+    largest = float(np.abs(lacking).max())
+    return largest / force if force else float(largest > 0)
+
+
+def largest_size(field: Floats) -> float:
+    """Largest absolute value of a field."""
+    return max(float(field.max()), -float(field.min()))
 
 
 def cell_stiffness_inverse(problem: AdhesiveProblem, domain: ContactDomain) -> float:

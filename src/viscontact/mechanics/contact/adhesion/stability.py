@@ -9,12 +9,14 @@ metric of S, which the Rayleigh-Ritz method finds from few vectors, from below.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import scipy  # its linear algebra is imported at its first use
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.adhesion.newton import LinearStep
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
@@ -24,6 +26,7 @@ from viscontact.mechanics.contact.adhesion.problem import (
 )
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution
+from viscontact.mechanics.contact.krylov import norm
 from viscontact.mechanics.contact.problem import Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 
@@ -36,8 +39,9 @@ VECTORS, VECTORS_RISING = 2, 4
 #: factor is about the square of it.
 RETURNS_ALIKE = 0.1
 
-#: Reduction of the residual of these systems [-], and largest one of a system of a small part.
-REDUCTION, LARGEST_REDUCTION = 1e-2, 0.3
+#: Residual of these systems over the change [-], and largest one of a system of a small part. The
+#: error of the factor is about the square of it.
+REDUCTION, LARGEST_REDUCTION = 1e-1, 0.3
 
 #: Slopes below this part of the largest one are none [-].
 NEGLIGIBLE_SLOPE = 1e-6
@@ -47,86 +51,125 @@ def stability(
     problem: AdhesiveProblem,
     domain: ContactDomain,
     solution: ContactSolution,
-    moved: Floats | None = None,
-) -> tuple[float, Floats | None]:
-    """Factor by which a small change of the attraction returns, < 1 if stable; and its moves.
+    known: Guess | None = None,
+) -> tuple[float, Guess | None]:
+    """Factor by which a small change of the attraction returns, < 1 if stable; and that change.
 
-    `moved` are those of a state before [m].
+    The change is one of the pressure [Pa], with the motion under it over the compliance; `known` is
+    that of a state before.
     """
     pulled = attraction(problem.law, solution.gap, domain.periodic)
     falls = np.where(solution.in_contact, 0.0, -pulled.slope)
     falls[~np.isfinite(solution.gap)] = 0.0
     if problem.contact.compliance == 0 or not falls.any():
         return 0.0, None  # the surfaces do not move, or do not attract each other
-    vectors = VECTORS if problem.law.decreasing is problem.law else VECTORS_RISING
-    change = np.where(falls > 0, falls, 0.0)
-    if moved is not None and (falls * moved).any():
-        change = falls * moved
-    changes: list[Floats] = []
-    moves: list[Floats] = []
-    reduction = REDUCTION
-    while True:
-        changes.append(change * (problem.law.strength / np.abs(change).max()))
-        moves.append(_opened_by(problem, domain, solution, changes[-1], reduction))
-        moves[-1][falls == 0] = 0.0
-        returned = falls * moves[-1]
-        change, share = _apart(returned, changes)
-        same = share < (NEGLIGIBLE_SLOPE if moved is None else RETURNS_ALIKE)
-        if len(changes) == vectors or same:
+    solves = VECTORS if problem.law.decreasing is problem.law else VECTORS_RISING
+    change, found = np.where(falls > 0, falls, 0.0), []
+    held = _Held(problem, domain, solution.in_contact)
+    start, limit, reduction = None, NEGLIGIBLE_SLOPE, REDUCTION
+    if known is not None:
+        before = held.answer(known)
+        if (falls * before.opened).any():
+            change, start, limit = falls * before.opened, before, RETURNS_ALIKE
+    for _ in range(solves):
+        change *= problem.law.strength / np.abs(change).max()
+        found.append(held.answer_to(change, reduction, start))
+        change, share = _apart(falls * found[-1].opened, [each.attraction for each in found])
+        if share < limit:
             break
         # What is new is a small part, and its error a small part of that.
-        reduction = min(REDUCTION / share, LARGEST_REDUCTION)
-    return _largest_ratio(changes, moves, falls)
+        start, reduction = None, min(REDUCTION / share, LARGEST_REDUCTION)
+    factor, weights = _largest_ratio(found, falls)
+    pressures = _sum(weights, [each.pressure.values for each in found])
+    return factor, Guess(pressures, _sum(weights, [each.pressure.motion for each in found]))
 
 
 def _apart(change: Floats, known: list[Floats]) -> tuple[Floats, float]:
     """What a change has beside its share of known ones, and the part that this is of it."""
-    size, left = np.sqrt(np.einsum("ij,ij->", change, change)), change
+    size, left = norm(change.ravel()), change
     for other in known:
         along = np.einsum("ij,ij->", left, other) / np.einsum("ij,ij->", other, other)
         left = left - along * other
-    return left, float(np.sqrt(np.einsum("ij,ij->", left, left)) / size) if size else 0.0
+    return left, norm(left.ravel()) / size if size else 0.0
 
 
-def _largest_ratio(
-    changes: list[Floats], moves: list[Floats], falls: Floats
-) -> tuple[float, Floats]:
-    """Largest eigenvalue of D S on the space of some changes y with moves S y, and its moves."""
-    y, z = (np.array([each.ravel() for each in fields]) for fields in (changes, moves))
-    metric = np.einsum("ik,jk->ij", y, z)
+@dataclass(frozen=True, eq=False)
+class _Answer:
+    """Change of the attraction, and the surfaces' answer."""
+
+    pressure: Guess  # that of the pressure, of cells in contact, too [Pa]; motion over compliance
+    attraction: Floats  # that of the attraction, zero in contact [Pa]
+    opened: Floats  # how far the surfaces approach each other off contact [m]
+    yielded: Floats  # the same in contact, which an exact answer does not [m]
+
+
+def _largest_ratio(found: list[_Answer], falls: Floats) -> tuple[float, Floats]:
+    """Largest eigenvalue of D S on the space of some changes y with moves S y, and its weights."""
+    y, z, w, p = (
+        np.array([np.ravel(field) for field in fields])
+        for fields in zip(
+            *((e.attraction, e.opened, e.yielded, e.pressure.pressure) for e in found), strict=True
+        )
+    )
+    # Twice the energy with the contact held is the work of the changes, less what the contact
+    # yields: then an error of the answer counts by its square.
+    metric = np.einsum("ik,jk->ij", y, z) + np.einsum("ik,jk->ij", p, w)
     matrix = np.einsum("ik,k,jk->ij", z, falls.ravel(), z)
     try:
-        values, weights = scipy.linalg.eigh((matrix + matrix.T) / 2, (metric + metric.T) / 2)
+        values, vectors = scipy.linalg.eigh((matrix + matrix.T) / 2, (metric + metric.T) / 2)
     except np.linalg.LinAlgError:  # the changes are multiples of one another
-        return float(matrix[0, 0] / metric[0, 0]), moves[0]
-    pairs = zip(weights[:, -1], moves, strict=True)
-    return float(values[-1]), np.asarray(sum(weight * each for weight, each in pairs))
+        return float(matrix[0, 0] / metric[0, 0]), np.eye(len(found))[0]
+    return float(values[-1]), vectors[:, -1]
 
 
-def _opened_by(
-    problem: AdhesiveProblem,
-    domain: ContactDomain,
-    solution: ContactSolution,
-    change: Floats,
-    reduction: float,
-) -> Floats:
-    """How far the surfaces approach each other under a change of the attraction [m]."""
-    # The equations of Newton's method for an attraction that does not depend on the gap.
-    nothing = np.zeros(domain.shape)
-    held = AdhesiveResidual(
-        np.where(solution.in_contact, 0.0, 1.0),
-        Attraction(change, nothing),
-        solution.in_contact,
-        *(0.0, 1.0, 0.0),
-    )
-    start = Guess(np.zeros((2, *domain.shape)), np.zeros(3))
-    system = LinearStep.of(_unloaded(problem), domain, start, held, 1e-3)
-    motion = system.solve(start, reduction)
-    if not system.is_whole:
-        domain.convolution.apply(start.pressure, into=start.unit_displacement)
-    moved = problem.contact.compliance * start.unit_displacement
-    moved -= domain.whole.plane.field(motion)
-    return -moved
+def _sum(weights: Floats, fields: Sequence[Floats]) -> Floats:
+    """Weighted sum of fields."""
+    total = weights[0] * fields[0]
+    for weight, field in zip(weights[1:], fields[1:], strict=True):
+        total += weight * field
+    return np.asarray(total)
+
+
+@dataclass(frozen=True, eq=False)
+class _Held:
+    """Bodies whose contact is held, under a load that does not change."""
+
+    problem: AdhesiveProblem
+    domain: ContactDomain
+    in_contact: Bools
+
+    def answer_to(self, change: Floats, reduction: float, known: _Answer | None) -> _Answer:
+        """Answer to about a change of the attraction [Pa], beginning with a known one."""
+        # The equations of Newton's method for an attraction that does not depend on the gap.
+        domain, compliance = self.domain, self.problem.contact.compliance
+        start, yielded = Guess(np.zeros((2, *domain.shape)), np.zeros(3)), 0.0
+        if known is not None:
+            before = known.attraction
+            scale = np.einsum("ij,ij->", change, before) / np.einsum("ij,ij->", before, before)
+            motion = scale * compliance * known.pressure.motion
+            start, yielded = Guess(scale * known.pressure.values, motion), scale * known.yielded
+        posed = AdhesiveResidual(
+            np.where(self.in_contact, -yielded, 1.0),
+            Attraction(change, np.zeros(domain.shape)),
+            self.in_contact,
+            *(0.0, 1.0, 0.0),
+        )
+        system = LinearStep.of(_unloaded(self.problem), domain, start, posed, 1e-3)
+        motion = system.solve(start, 0.0, reduction * norm(change.ravel()))
+        if not system.is_whole:
+            domain.convolution.apply(start.pressure, into=start.unit_displacement)
+        return self.answer(Guess(start.values, motion / compliance))
+
+    def answer(self, pressure: Guess) -> _Answer:
+        """Answer that a change of the pressure is, with its motion over the compliance."""
+        plane = self.domain.whole.plane.field(pressure.motion)
+        opened = self.problem.contact.compliance * (plane - pressure.unit_displacement)
+        return _Answer(
+            pressure,
+            np.where(self.in_contact, 0.0, -pressure.pressure),
+            np.where(self.in_contact, 0.0, opened),
+            np.where(self.in_contact, opened, 0.0),
+        )
 
 
 def _unloaded(problem: AdhesiveProblem) -> AdhesiveProblem:
