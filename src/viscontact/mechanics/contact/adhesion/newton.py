@@ -9,10 +9,7 @@ a step (Hintermueller, Ito & Kunisch 2003, SIAM J. Optim. 13, 865) are
     balances:     sums(dp) dA + k dc = what is lacking
 
 with the cell size d, and k the spring of the stage. The front of a law that ends abruptly is as
-wide as the gap changes over a cell, so D acts on these changes, too. The equations are solved by
-GMRES. Its preconditioner is that of the contact solver in contact, and one elsewhere, where the
-equation is of the second kind; a multiple of the planes' images makes every direction keep the
-balances.
+wide as the gap changes over a cell, so D acts on these changes, too.
 """
 
 from __future__ import annotations
@@ -21,35 +18,23 @@ import math
 
 import numpy as np
 
-from viscontact.backend.arrays import Bools, Floats, Singles
+from viscontact.backend.arrays import Bools
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.contact.adhesion.linear_step import LinearStep
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveResidual,
-    changes_over_cells,
     residual_of,
 )
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.contact.krylov import gmres, norm
-from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import Guess
 
 #: Newton steps of one search; from an extrapolated guess 3 to 6 are needed.
 MAX_STEPS = 20
 
-#: Vectors of GMRES.
-MAX_VECTORS = 40
-
-#: Spare fields of a patch that are used within one image.
-SPARE = 2
-
 #: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
 #: change, and from a residual of so many strengths on.
 REDUCTION_AFAR, REDUCTION, NEAR = 1e-1, 1e-3, 1e-2
-
-#: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
-#: the largest residual.
-INNER_TOLERANCE = 0.5
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
@@ -57,9 +42,6 @@ DIVERGED = 1e3
 #: Part of the residual of two steps before, on the same cells in contact, from which on a search
 #: goes in circles [-].
 CYCLING = 0.5
-
-#: Attraction below this part of the tolerance is no unknown [-].
-NEGLIGIBLE_SHARE = 1e-2
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,177 +112,3 @@ class CycleOfSets:
         (first, error), (last, _) = before
         back = np.array_equal(now[0], first) and not np.array_equal(now[0], last)
         return back and checked.error >= CYCLING * error
-
-
-class LinearStep:
-    """Linear equations of one Newton step on a patch, of all cells: those left alone keep p."""
-
-    # Fields, not lists of cells: mostly all of a patch are attracted, and to pick them out takes
-    # longer than to compute with the others.
-
-    def __init__(
-        self,
-        problem: AdhesiveProblem,
-        domain: ContactDomain,
-        patch: Patch,
-        cells: tuple[Bools, Bools],
-        checked: AdhesiveResidual,
-        lacking: Floats,
-        goal: float,
-    ) -> None:
-        """Take the cells in contact and those attracted, the residual, and where to end [Pa]."""
-        contact, pulled = cells
-        self._patch, self._goal, self.convolutions = patch, goal, 0
-        along_x, along_y = domain.periodic
-        whole_x, whole_y = (a == b for a, b in zip(patch.shape, domain.shape, strict=True))
-        self._periodic = along_x and whole_x, along_y and whole_y
-        #: True if the patch is the whole grid, so that `solve` changes the displacement, too.
-        self.is_whole = whole_x and whole_y
-        compliance, spacing = problem.contact.compliance, float(np.sqrt(patch.cell_area))
-        self._free, self._compliance = problem.contact.constraints.free, compliance
-        self._contact = np.flatnonzero(contact)
-        slope = np.where(pulled, compliance * checked.attraction.slope, 0.0).astype(np.float32)
-        self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
-        #: Factor of a change of the gap, per unit compliance, in each equation [1/m].
-        self._of_gap = slope.copy()
-        self._of_gap.ravel()[self._contact] = 1 / spacing
-        self._open = np.ones(patch.shape, np.float32)
-        self._open.ravel()[self._contact] = 0.0
-        #: Equations of cells whose attraction grows with the gap are stiff [-].
-        self._softened = self._open
-        if problem.law.decreasing is not problem.law:
-            stiff = 1 + np.maximum(slope, 0.0) * np.float32(spacing)
-            self._softened = self._open / stiff
-        across = checked.attraction.slopes_across
-        self._across = [
-            np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
-        ]
-        self._spacing = np.float32(spacing)
-        self._lacking = lacking / patch.cell_area
-        if self._free.any():
-            self._balance(problem.spring / patch.cell_area)
-
-    def _balance(self, spring: float) -> None:
-        """Prepare how much of each free motion meets what is lacking; stiffness by area [N/m³]."""
-        patch = self._patch
-        modes = (patch.plane.field(unit) for unit in np.eye(3))
-        self._planes = [np.broadcast_to(mode, patch.shape) for mode in modes]
-        self._shares = [self._share(mode) for mode in range(3)]
-        matrix = np.array([patch.plane.sums(share) for share in self._shares]).T
-        matrix[0, 0] += spring
-        fixed = ~self._free
-        matrix[fixed], matrix[:, fixed] = 0.0, 0.0
-        matrix[fixed, fixed] = 1.0
-        self._inverse = np.linalg.pinv(matrix)
-
-    @classmethod
-    def of(
-        cls,
-        problem: AdhesiveProblem,
-        domain: ContactDomain,
-        iterate: Guess,
-        checked: AdhesiveResidual,
-        tolerance: float,
-    ) -> LinearStep:
-        """Step from an iterate, on the patch around the cells that bear traction."""
-        scale = problem.traction_scale(iterate)
-        least = NEGLIGIBLE_SHARE * tolerance * scale
-        active = checked.in_contact | (np.abs(checked.attraction.traction) > least)
-        active |= iterate.pressure != 0
-        patch = domain.patch_around(active)
-        cut = AdhesiveResidual(
-            patch.cut(checked.gap),
-            type(checked.attraction)(
-                patch.cut(checked.attraction.traction),
-                patch.cut(checked.attraction.slope),
-                tuple(patch.cut(each) for each in checked.attraction.slopes_across),
-            ),
-            patch.cut(checked.in_contact),
-            *(checked.of_gap, checked.of_traction, checked.imbalance),
-        )
-        cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
-        lacking = problem.lacking(iterate, domain)
-        goal = INNER_TOLERANCE * tolerance * scale
-        return cls(problem, domain, patch, cells, cut, lacking, goal)
-
-    def solve(self, iterate: Guess, reduction: float, goal: float | None = None) -> Floats:
-        """Add the change to the pressure of an iterate; return its motion.
-
-        Ends where the residual is reduced by a factor, or to a norm [Pa], that of the search if none
-        is given. On the whole grid the displacement follows, in the precision of the search.
-        """
-        here, everywhere = self._patch.cut(iterate.pressure), iterate.unit_displacement
-        right = np.where(self._pulled, -(here + self._traction), 0.0).astype(np.float32)
-        gap = self._gap.ravel()[self._contact] / (self._compliance * float(self._spacing))
-        right.ravel()[self._contact] = -gap
-        taken: list[tuple[Singles, Singles, Floats]] = []
-        spare = self._patch.operators.spare
-
-        def image(vector: Singles, lacking: Floats) -> Singles:
-            change, lifted, found = (spare(SPARE + 3 * len(taken) + each) for each in range(3))
-            motion = self._direction(vector.reshape(right.shape), lacking, change)
-            self._patch.convolution.apply(change, into=lifted)
-            self.convolutions += 1
-            taken.append((change, lifted, motion))
-            self._image(*taken[-1], found)
-            return found.ravel()
-
-        left = image(right, self._lacking)
-        np.subtract(right.ravel(), left, out=left)
-        goal = max(reduction * norm(right.ravel()), self._goal if goal is None else goal)
-        factors, _ = gmres(lambda vector: image(vector, np.zeros(3)), left, goal, MAX_VECTORS)
-        motion, (change, lifted, moved) = iterate.motion, taken[0]
-        motion, part = motion + moved, spare(0)
-        for factor, (other, raised, moved) in zip(factors, taken[1:], strict=True):
-            change += np.multiply(other, np.float32(factor), out=part)
-            motion = motion + factor * moved
-            if self.is_whole:
-                lifted += np.multiply(raised, np.float32(factor), out=part)
-        here += change
-        if self.is_whole:
-            everywhere += lifted
-        return motion
-
-    def _direction(self, vector: Singles, lacking: Floats, into: Singles) -> Floats:
-        """Preconditioned change of pressure [Pa] and of the motion for a residual [Pa]."""
-        change = self._preconditioned(vector, into)
-        if not self._free.any():
-            return np.zeros(3)
-        sums = self._patch.plane.sums(change)
-        motion = self._inverse @ np.where(self._free, lacking - sums, 0.0)
-        for amount, share in zip(motion, self._shares, strict=True):
-            if amount:
-                change += np.float32(amount) * share
-        return motion
-
-    def _image(self, change: Singles, lifted: Singles, motion: Floats, into: Singles) -> None:
-        """Left sides of the equations for a change [Pa] and its unit displacement [Pa m]."""
-        opened, part = lifted, self._patch.operators.spare(0)
-        if motion.any():
-            plane = self._patch.plane.field(motion / self._compliance, np.float32)
-            opened = np.subtract(lifted, plane, out=self._patch.operators.spare(1))
-        np.multiply(opened, self._of_gap, out=into)
-        into += np.multiply(self._open, change, out=part)
-        changes = changes_over_cells(opened, self._periodic) if self._across else ()
-        for factor, each in zip(self._across, changes, strict=True):
-            into += factor * each
-
-    def _preconditioned(self, vector: Singles, into: Singles) -> Singles:
-        """About the pressure that a residual calls for [Pa]."""
-        np.multiply(vector, self._softened, out=into)
-        if self._contact.size:
-            field = self._patch.operators.spare(0)
-            field[...] = 0.0
-            field.ravel()[self._contact] = vector.ravel()[self._contact] * self._spacing
-            self._patch.preconditioner.apply(field, into=field)
-            into.ravel()[self._contact] = field.ravel()[self._contact]
-        return into
-
-    def _share(self, mode: int) -> Singles:
-        """About the pressure by a unit of one rigid motion: of cells in contact, if there are."""
-        if not self._free[mode]:
-            return np.zeros(self._patch.shape, np.float32)
-        pressed = self._of_gap * self._planes[mode] / self._compliance
-        if self._contact.size:
-            pressed *= 1 - self._open
-        return self._preconditioned(pressed.astype(np.float32), np.empty_like(self._open))

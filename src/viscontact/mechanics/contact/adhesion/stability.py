@@ -17,7 +17,7 @@ import scipy  # its linear algebra is imported at its first use
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.contact.adhesion.newton import LinearStep
+from viscontact.mechanics.contact.adhesion.linear_step import LinearStep
 from viscontact.mechanics.contact.adhesion.problem import (
     AdhesiveProblem,
     AdhesiveResidual,
