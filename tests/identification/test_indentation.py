@@ -20,6 +20,7 @@ from viscontact.bodies.materials.material import Material
 from viscontact.case import read_material
 from viscontact.identification import IndentationRecord, fit_indentation, material_section
 from viscontact.identification.elastic_indentation import elastic_indentation
+from viscontact.identification.record_problem import RecordProblem
 from viscontact.indenters import Cone, FlatPunch, Paraboloid, Pyramid, Sphere
 from viscontact.laws import Elastic, Maxwell, PowerLaw, Zener
 
@@ -315,3 +316,36 @@ def test_bad_records_and_options_are_refused(make, message):
 
 
 RECORD = IndentationRecord(SPHERE, T, D, 1e3 * D**1.5)
+
+
+@pytest.mark.parametrize("scatter", [0.01, 1e-6])
+@pytest.mark.parametrize("indenter", [SPHERE, Cone(1.2)], ids=["sphere", "cone"])
+def test_a_record_that_is_searched_with_the_tip_alone_has_the_fit_of_the_whole_contact(
+    scatter, indenter, monkeypatch
+):
+    """The force on the tip is a search for the solution of the rods, which the fit ends with."""
+    law = Zener(1e6, 1e6, 1e6)
+    record = scattered(exact_record(law, indenter), scatter, seed=7)
+    coarse = fit_indentation(record, "zener", poisson_ratio=NU)
+    monkeypatch.setattr(RecordProblem, "has_coarser", False)
+    whole = fit_indentation(record, "zener", poisson_ratio=NU)
+    for name, (low, high) in whole.intervals.items():
+        deviation = (high - low) / 4
+        assert abs(coarse.parameters[name] - whole.parameters[name]) < 0.05 * deviation
+        begin, end = coarse.intervals[name]
+        assert end - begin == close_to(high - low, rel=0.02)
+
+
+def test_a_record_whose_approach_has_scatter_has_the_fit_of_the_whole_contact_too(monkeypatch):
+    """Small reversals of a hold are no second indentation, but the tip alone forgets them."""
+    rng = np.random.default_rng(3)
+    record = exact_record(Zener(1e6, 1e6, 1e6))
+    noisy = record.approach + 3e-3 * record.approach.max() * rng.standard_normal(41)
+    record = scattered(
+        IndentationRecord(record.indenter, record.times, noisy, record.force), 0.01, seed=8
+    )
+    coarse = fit_indentation(record, "zener", poisson_ratio=NU)
+    monkeypatch.setattr(RecordProblem, "has_coarser", False)
+    whole = fit_indentation(record, "zener", poisson_ratio=NU)
+    for name, (low, high) in whole.intervals.items():
+        assert abs(coarse.parameters[name] - whole.parameters[name]) < 0.05 * (high - low) / 4

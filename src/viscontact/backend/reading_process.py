@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import psutil
 from numpy.typing import NDArray
 
 from viscontact.backend.errors import is_lack_of_memory
@@ -135,6 +134,8 @@ class ReadingProcess:
     @contextmanager
     def _watched(self, limits: ReadingLimits) -> Iterator[list[End]]:
         """Kill the process when it exceeds limits; the list then has the one that it was."""
+        import psutil  # 7 ms, where something is read in a process
+
         ends: list[End] = []
         over = threading.Event()
         process = psutil.Process(self._process.pid)

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 from viscontact.identification.elastic_indentation import elastic_indentation
 from viscontact.identification.force_curve import ForceCurve
+from viscontact.identification.least_squares import (
+    Tolerances,
+    central_differences,
+    least_squares,
+)
 from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.stroke import Stroke
 from viscontact.units.formatting import format_quantity
@@ -178,17 +182,19 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
         )
         return np.asarray(scale * (offset + slope * (z - middle) / extent) + bending)
 
-    ended = least_squares(
-        lambda free: (model(free) - d) / scale,
-        _scaled_curve(start, middle, extent, scale),
-        jac="3-point",
-        x_scale="jac",
-        xtol=1e-12,
-        ftol=1e-14,
-    )
-    offset, slope, contact, logarithm = ended.x
-    noise = float(np.sqrt(2 * ended.cost / max(z.size - 4, 1)))
-    covariance = noise**2 * np.linalg.pinv(ended.jac.T @ ended.jac)
+    def misses(free: Floats) -> Floats:
+        return (model(free) - d) / scale
+
+    def slopes(free: Floats) -> Floats:
+        return central_differences(misses, free)
+
+    first = _scaled_curve(start, middle, extent, scale)
+    anywhere = np.full(4, np.inf)
+    ended = least_squares(misses, slopes, first, (-anywhere, anywhere), Tolerances(1e-12, 1e-14))
+    offset, slope, contact, logarithm = ended
+    noise = float(np.linalg.norm(misses(ended))) / np.sqrt(max(z.size - 4, 1))
+    jacobian = slopes(ended)
+    covariance = noise**2 * np.linalg.pinv(jacobian.T @ jacobian)
     found = ContactPoint(
         curve=curve,
         indenter=indenter,

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate
 from viscontact.identification.elastic_indentation import ElasticIndentation
+from viscontact.identification.monotone_curve import monotone_curve
 from viscontact.identification.record import Cantilever, IndentationRecord
 from viscontact.identification.stroke import Stroke
 from viscontact.identification.tip_contact import PressedTip
@@ -133,8 +133,12 @@ class CurveProblem:
         bent = tip.force(nodes, self.stroke.at(nodes) - contact, mean) / k
         # The bending is smooth between corners, where nodes are close.
         rows = np.clip(self.stroke.times, nodes[0], nodes[-1])
-        course = PchipInterpolator(nodes, bent)(rows)
+        course = monotone_curve(nodes, bent, rows)
         return np.where(self.stroke.times < nodes[0], 0.0, course) / self.scale
+
+    def refined(self, coarse: Floats, fine: Floats) -> Floats:
+        """Error of the response with twice as many nodes [-], which is of second order."""
+        return (fine - coarse) / 3
 
     @property
     def is_drawn_off(self) -> bool:

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
@@ -166,7 +166,7 @@ def _stiffening(exponent: float, poisson_ratio: float) -> _Stiffening:
     """Table for a shape of indenter and a Poisson's ratio."""
     rows = [_stiffened(exponent, float(ratio), poisson_ratio) for ratio in _RATIOS]
     x, logarithms = np.array([(0.0, 0.0), *rows]).T
-    spline, places = CubicSpline(x, logarithms), np.linspace(0.0, x[-1], _PLACES)
+    spline, places = scipy.interpolate.CubicSpline(x, logarithms), np.linspace(0.0, x[-1], _PLACES)
     return _Stiffening(places, spline(places), spline(places, 1))
 
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Protocol
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.special import stdtrit
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.series_fits.quantiles import student_quantile
 from viscontact.bodies.series_fits.residual_noise import Noise, noise_of
+from viscontact.identification.least_squares import Tolerances, least_squares
 
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
 _REACH = np.log(1e8)  # largest change of ln p from its start
 _FINER = 2  # times as many nodes for the last step
+_LEFT = 0.02  # of the standard errors: a smaller step changes nothing of the result
 _TOUCH = 1e-9  # of the largest response: less is none
 
 
@@ -57,6 +58,9 @@ class Problem(Protocol):
 
     def response(self, free: Floats, finer: int = 1) -> Floats:
         """Response to the unknowns on the same scale [-], with `finer` times as many nodes."""
+
+    def refined(self, coarse: Floats, fine: Floats) -> Floats:
+        """Error of a response with `_FINER` times as many nodes, from one without [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +108,7 @@ class Estimate:
     covariance: Floats  # of the unknowns, followed by the linear terms
     noise: Noise
     widening: float  # largest ratio of a standard error to that under white noise
+    is_found: bool  # a further step would change the unknowns by little of their errors
 
     @property
     def errors(self) -> Floats:
@@ -112,7 +117,7 @@ class Estimate:
 
     def quantile(self, confidence: float) -> float:
         """Student's t of two-sided intervals."""
-        return float(stdtrit(self.noise.freedom, 0.5 + confidence / 2))
+        return student_quantile(self.noise.freedom, 0.5 + confidence / 2)
 
 
 def estimated(problem: Problem, start: Floats | None = None) -> Estimate:
@@ -133,21 +138,17 @@ def estimated(problem: Problem, start: Floats | None = None) -> Estimate:
 
     names = len(problem.shape.names)
     reach = np.concatenate([np.full(names, _REACH), problem.reach])
-    ended = least_squares(
-        guarded,
-        first,
-        jac=lambda free: differences(guarded, free),
-        bounds=(first - reach, first + reach),
-        xtol=1e-7,
-        ftol=1e-9,
-        max_nfev=60,
-    )
-    return _with_covariance(projected, ended.x, (first - reach, first + reach))
+    bounds = (first - reach, first + reach)
+    slopes = partial(differences, guarded)
+    ended = least_squares(guarded, slopes, first, bounds, Tolerances(1e-7, 1e-9, 60))
+    return _with_covariance(projected, ended, bounds)
 
 
-def differences(function: Callable[[Floats], Floats], free: Floats) -> Floats:
-    """Jacobian by forward differences."""
-    here = function(free)
+def differences(
+    function: Callable[[Floats], Floats], free: Floats, here: Floats | None = None
+) -> Floats:
+    """Jacobian by forward differences, from what the function is there, if that is known."""
+    here = function(free) if here is None else here
     steps = _STEP * np.eye(free.size)
     return np.stack([(function(free + step) - here) / _STEP for step in steps], axis=1)
 
@@ -171,29 +172,33 @@ def _sum_of_squares(projected: Projected, free: Floats) -> float:
 def _with_covariance(projected: Projected, free: Floats, bounds: tuple[Floats, Floats]) -> Estimate:
     """Solution after a last step with finer nodes, and the covariance there."""
     problem = projected.problem
-    slopes = differences(problem.response, free)
+    here = problem.response(free)
+    slopes = differences(problem.response, free, here)
     influence = _inverse(projected.without_baseline(slopes))
-    coarse = projected.residuals(free, _FINER)
+    fine = problem.response(free, _FINER)
+    coarse = projected.without_baseline(fine - problem.measured)
     moved = np.clip(free - influence @ coarse, *bounds)
-    finer = projected.residuals(moved, _FINER)
-    if finer @ finer > coarse @ coarse:
-        moved, finer = free, coarse
     rest = problem.measured - problem.response(moved, _FINER)
+    finer = -projected.without_baseline(rest)
+    if finer @ finer > coarse @ coarse:
+        moved, finer, rest = free, coarse, problem.measured - fine
     # What a row changes in the response, the linear terms do not take up.
     linear = projected.fitting - projected.terms(slopes) @ influence
     influence = np.concatenate([influence, linear])
     noise = noise_of(finer, len(influence), _in_contact(problem.response(moved)))
-    # Between as many nodes and twice as many lie 3 times the error of the latter, of second order.
-    numerical = influence @ (problem.response(free, _FINER) - problem.response(free)) / 3
+    numerical = influence @ problem.refined(here, fine)
     unseen = influence @ problem.unseen
     covariance = noise.covariance(influence)
+    covariance += np.outer(numerical, numerical) + np.outer(unseen, unseen)
+    steps = np.abs(influence[: free.size] @ finer)
     return Estimate(
         free=moved,
         terms=projected.terms(rest),
         residuals=finer,
-        covariance=covariance + np.outer(numerical, numerical) + np.outer(unseen, unseen),
+        covariance=covariance,
         noise=noise,
         widening=noise.widening(influence),
+        is_found=bool((steps <= _LEFT * np.sqrt(np.diag(covariance))[: free.size]).all()),
     )
 
 

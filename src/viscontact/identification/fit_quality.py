@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import scipy
 
-from viscontact.backend.arrays import Bools
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.bodies.series_fits.quality import LARGEST_LIMIT, RMS_LIMIT, Misfit, Reason
 from viscontact.bodies.series_fits.residual_noise import noise_of
 from viscontact.identification.indentation_fit import IndentationFit
@@ -80,7 +79,7 @@ def _cause(fit: IndentationFit) -> str:
     """Likely cause of correlated residuals."""
     free = _free_rows(fit)
     # A law that misses the contact turns the baseline a little, too.
-    rest = scipy.signal.detrend(fit.residuals[free]) if free.sum() > _FEWEST else np.zeros(1)
+    rest = _without_trend(fit.residuals[free]) if free.sum() > _FEWEST else np.zeros(1)
     smaller = np.sqrt(np.mean(rest**2)) < fit.residual / _SMALLER
     if fit.contact is None or smaller or noise_of(rest, 2).is_white:
         return f"the law misses the contact; look for another law, {_LEFT_OUT}"
@@ -93,6 +92,12 @@ def _cause(fit: IndentationFit) -> str:
     return "the baseline drifts or is curved without contact"
 
 
+def _without_trend(values: Floats) -> Floats:
+    """Values less the best line over their number."""
+    line = np.polynomial.Polynomial.fit(np.arange(values.size), values, 1)
+    return np.asarray(values - line(np.arange(values.size)))
+
+
 def _free_rows(fit: IndentationFit) -> Bools:
     """Fitted rows well before contact, which a misfit of the contact does not reach."""
     touched = np.flatnonzero(np.nan_to_num(fit.fitted) > 0)
@@ -102,7 +107,7 @@ def _free_rows(fit: IndentationFit) -> Bools:
 
 def _period(fit: IndentationFit, free: Bools) -> float | None:
     """Period over the position of residuals without contact [m]; None if no one stands out."""
-    way, residuals = fit.record.approach[free], scipy.signal.detrend(fit.residuals[free])
+    way, residuals = fit.record.approach[free], _without_trend(fit.residuals[free])
     if way.size < 32 or np.ptp(way) == 0:
         return None
     order = np.argsort(way)

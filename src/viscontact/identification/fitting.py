@@ -23,6 +23,9 @@ def fitted_record(
 ) -> IndentationFit:
     """Fit of a law to a record whose approach, or force, is exact."""
     estimate = estimated(problem)
+    if problem.has_coarser and not estimate.is_found:
+        problem = replace(problem, begins_coarse=False)
+        estimate = estimated(problem, estimate.free)
     material = problem.law_of(estimate.free)
     return IndentationFit(
         material=material,

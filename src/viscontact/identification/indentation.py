@@ -9,7 +9,7 @@ from warnings import warn
 import numpy as np
 
 from viscontact.backend.errors import AccuracyWarning
-from viscontact.backend.threads import limit_threads
+from viscontact.backend.threads import limit_loaded
 from viscontact.bodies.laws import Elastic
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate, candidate
@@ -144,7 +144,7 @@ def fit_indentation(  # noqa: PLR0913
     if reference_time is not None:
         reference_time = positive("fit_indentation: reference_time", reference_time, "s")
     shape = _candidate(law, int(terms), modulus, fitted, reference_time)
-    with limit_threads():  # on matrices this small, more threads mostly wait
+    with limit_loaded():  # on matrices this small, more threads mostly wait
         if is_curve:
             curve = CurveProblem(fitted, stroke_of(fitted), shape, material, elastic)
             found = fitted_curve(curve, record, confidence)

@@ -6,7 +6,7 @@ import itertools
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import ClassVar, TypedDict, Unpack
+from typing import ClassVar, Unpack
 
 import numpy as np
 
@@ -31,13 +31,6 @@ from viscontact.units.display import Displayable, Plotted
 
 _OWNER = "build_master_curve"
 _SAME = 1e-6  # K: temperatures that differ by less are equal
-
-
-class SuperpositionOptions(TypedDict, total=False):
-    """Options of `build_master_curve` that concern the vertical shift."""
-
-    vertical: Vertical | None
-    expansion: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.materials.material import Material
 from viscontact.identification.candidates import Candidate
 from viscontact.identification.elastic_indentation import ElasticIndentation
+from viscontact.identification.fitted_part import stroke_of
 from viscontact.identification.indentation_fit import compared
 from viscontact.identification.record import IndentationRecord
 from viscontact.identification.tip_contact import PressedTip
@@ -31,6 +32,7 @@ class RecordProblem:
     shape: Candidate
     material: Callable[..., Material]
     elastic: ElasticIndentation
+    begins_coarse: bool = True
 
     @cached_property
     def _counted(self) -> Bools:
@@ -71,14 +73,32 @@ class RecordProblem:
         return self.material(self.shape.build(*self.shape.values(free).tolist()))
 
     def response(self, free: Floats, finer: int = 1) -> Floats:
-        """Exact solution in the rows that count, over the largest measured value [-]."""
-        return self.exact(self.law_of(free))[self._counted] / self.scale
+        """Exact solution in the rows that count, over the largest measured value [-].
+
+        It is searched with a coarser one, by the tip alone in place of the pressure within the
+        contact, where there is one; `finer` ones are those of the pressure.
+        """
+        material = self.law_of(free)
+        is_coarse = finer == 1 and self.has_coarser
+        whole = self._by_tip(material) if is_coarse else self.exact(material)
+        return whole[self._counted] / self.scale
+
+    def refined(self, coarse: Floats, fine: Floats) -> Floats:
+        """Error of the finer response [-]: not known, and far below that of the coarser one."""
+        return np.zeros_like(fine)
+
+    @cached_property
+    def has_coarser(self) -> bool:
+        """True if the tip is pressed in once."""
+        if self.elastic.film is not None or self.given != "approach" or not self.begins_coarse:
+            return False
+        return stroke_of(self.record).second_approach is None
 
     def exact(self, material: Material) -> Floats:
         """Exact solution for the other quantity of the record [N or m]."""
-        times, approach, force, lead = _from_contact(self.record, self.elastic)
+        times, approach, force, lead = self._since_contact
         if self.elastic.film is not None:
-            return self._on_film(times, approach, material)[lead:]
+            return self._by_tip(material)
         contact = reference.press_axisymmetric(
             self.record.profile,
             times,
@@ -94,8 +114,9 @@ class RecordProblem:
             raise ValueError(f"fit_indentation: the exact solution gives no number in row {row}")
         return np.asarray(response)
 
-    def _on_film(self, times: Floats, approach: Floats, material: Material) -> Floats:
-        """Force on a film: from the last touch before the largest approach on, 0 before it [N]."""
+    def _by_tip(self, material: Material) -> Floats:
+        """Force on the tip: from the last touch before the largest approach on, 0 before it [N]."""
+        times, approach, _, lead = self._since_contact
         free = np.flatnonzero(approach[: int(approach.argmax())] <= 0)
         first, touch = 0, float(times[0])
         if free.size:
@@ -107,7 +128,11 @@ class RecordProblem:
         nodes, way = np.append(touch, times[first:]), np.append(0.0, approach[first:])
         mean = lag_mean(material.contact_compliance())
         force = PressedTip(self.elastic).force(nodes, way, mean)[1:]
-        return np.append(np.zeros(first), force)
+        return np.append(np.zeros(first), force)[lead:]
+
+    @cached_property
+    def _since_contact(self) -> tuple[Floats, Floats, Floats, int]:
+        return _from_contact(self.record, self.elastic)
 
 
 def _from_contact(

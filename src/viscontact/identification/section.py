@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from textwrap import wrap
 
+from viscontact import identification
 from viscontact.bodies.laws import (
     Burgers,
     CreepSeries,
@@ -20,7 +21,6 @@ from viscontact.bodies.laws import (
 from viscontact.bodies.series_fits.fit import Fit
 from viscontact.identification.adhesion_fit import AdhesionFit
 from viscontact.identification.indentation_fit import IndentationFit
-from viscontact.identification.master_curve import MasterCurve
 from viscontact.identification.shift_section import shift_lines
 
 _DIGITS = 6
@@ -28,7 +28,7 @@ _DIGITS = 6
 
 def material_section(
     fit: Fit | IndentationFit,
-    curve: MasterCurve | None = None,
+    curve: identification.MasterCurve | None = None,
     temperature: float | None = None,
 ) -> str:
     """Return the law of a fit as a section to paste into a case file.
@@ -106,7 +106,7 @@ def adhesive_sections(fit: AdhesionFit) -> str:
 
 
 def _shift_of(
-    fit: Fit | IndentationFit, curve: MasterCurve | None, temperature: float | None
+    fit: Fit | IndentationFit, curve: identification.MasterCurve | None, temperature: float | None
 ) -> tuple[Sequence[str], list[str]]:
     """Doubts about the shift of a fit, and the lines of it; none without a shift."""
     if curve is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg.lapack import dtrtri
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
@@ -11,6 +10,7 @@ from viscontact.identification.elastic_indentation import ElasticIndentation
 from viscontact.reference.lag_means import LagMean
 
 _NEWTON_STEPS = 60  # far more than needed: the function is convex and grows
+_SMALL = 24  # rows of a matrix that is inverted at once
 
 
 @dataclass(frozen=True)
@@ -123,11 +123,23 @@ def relaxation_weights(times: Floats, mean: LagMean) -> Floats:
     i, j = np.tril_indices(n)
     compliance = np.zeros((n, n))
     compliance[i, j] = mean(np.maximum(ends[i] - ends[j], 0.0), ends[i] - begins[j])
-    inverse, failed = dtrtri(compliance, lower=1)
-    if failed:
+    if not np.diag(compliance).all():
         raise ValueError("fit_indentation: the compliance is 0 over a step; the body is rigid")
+    inverse = _inverse(compliance)
     weights = np.zeros((n + 1, n + 1))
     # A step's displacement stays: it stands in all later rows, and loads are sums of changes.
     change = np.cumsum(inverse[:, ::-1], axis=1)[:, ::-1]
     np.cumsum(np.tril(change), axis=0, out=weights[1:, 1:])
     return weights
+
+
+def _inverse(lower: Floats) -> Floats:
+    """Inverse of a lower triangular matrix without zeros on the diagonal, by its quarters."""
+    n = len(lower)
+    if n <= _SMALL:
+        return np.tril(np.linalg.inv(lower)) if n else lower
+    inverse, half = np.zeros((n, n)), n // 2
+    first = inverse[:half, :half] = _inverse(lower[:half, :half])
+    last = inverse[half:, half:] = _inverse(lower[half:, half:])
+    inverse[half:, :half] = -last @ (lower[half:, :half] @ first)
+    return inverse

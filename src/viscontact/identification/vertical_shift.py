@@ -6,7 +6,7 @@ Properties of Polymers, 3rd ed., 1980, chapter 11): b_T = T ρ/(T_r ρ_r).
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypedDict
 
 import numpy as np
 
@@ -15,6 +15,14 @@ from viscontact.backend.lazy_dataclass import dataclass
 
 Vertical = Literal["none", "rubber", "found"]
 VERTICALS: tuple[Vertical, ...] = ("none", "rubber", "found")
+
+
+class SuperpositionOptions(TypedDict, total=False):
+    """Options of `build_master_curve` that concern the vertical shift."""
+
+    vertical: Vertical | None
+    expansion: float
+
 
 # Prior of what is found, b_T = (T/T_r)^v: v = 1 of rubber elasticity and v = 0 lie at 2/3 of the
 # standard deviation from the mean.

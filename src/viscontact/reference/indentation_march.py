@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
@@ -78,7 +78,7 @@ def deepest_approach(profile: Profile, steps: LoadSteps, law: LagCompliance) -> 
         s = np.exp(logarithm)
         return float(np.log(2 * (s * profile.depth(s) - profile.depth_integral(s)) / crept))
 
-    s = np.exp(brentq(missing, -70.0, 70.0, xtol=1e-6))
+    s = np.exp(scipy.optimize.brentq(missing, -70.0, 70.0, xtol=1e-6))
     return 1.001 * float(profile.depth(s))
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.bodies.series_fits.quantiles import chi_square_exceedance
 
 _FIRST_BAND = 4  # frequencies of the lowest band, about as many as a fit takes up
 _CENTRES = (6.5, 15.5)  # of the next two bands
@@ -83,13 +83,14 @@ def _power(residuals: Floats, variance: float) -> _Power:
     spectrum = np.abs(np.fft.rfft(residuals)) ** 2 / (rows * variance)
     bands = _bands(count)
     means = np.array([spectrum[band].mean() for band in bands])
-    degrees = np.array([2 * (band.stop - band.start) for band in bands])
+    degrees = [2 * (band.stop - band.start) for band in bands]
     strongest = np.maximum(np.maximum.accumulate(means[::-1])[::-1], 1.0)
     for band, mean in zip(bands, strongest, strict=True):
         power[band] = mean
     power[0] = power[1]
     # A mean over n/2 frequencies is chi-square of n degrees of freedom over n.
-    if np.all(means <= scipy.special.chdtri(degrees, _CHANCE / len(bands)) / degrees):
+    chances = (chi_square_exceedance(*each) for each in zip(means * degrees, degrees, strict=True))
+    if all(chance >= _CHANCE / len(bands) for chance in chances):
         return _Power(frequencies, power, True)
     # The fit has taken up most of the lowest band: its power is that of the next one, continued
     # as steeply as that one rises above its successor.

@@ -367,13 +367,15 @@ def fit(
         execute_case_fit(typed, page)
         return
     from viscontact.cli.material.case_options import refuse_without_case
-    from viscontact.cli.material.fit_batch import curve_files, holds_several, report_fits
+    from viscontact.cli.material.curve_files import curve_files, holds_several
 
     curves = curve_files(files)
     several = holds_several(curves)
     refuse_without_case(typed, curves, several=several)
     arguments = FitArguments.of(typed)
-    if several:
+    if several:  # workers take a tenth of a second to import
+        from viscontact.cli.material.fit_batch import report_fits
+
         report_fits(curves, arguments, output, table, width=page, jobs=jobs, quiet=quiet)
         return
     report_fit(curves[0], arguments, output, section, width=page)

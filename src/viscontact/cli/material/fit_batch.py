@@ -9,6 +9,7 @@ from pathlib import Path
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Indenter
 from viscontact.cli.material import fit_kinds
+from viscontact.cli.material.curve_files import holds_several
 from viscontact.cli.material.fit_options import FitArguments
 from viscontact.cli.material.fit_report import DeferredFigure, draw_fit
 from viscontact.cli.terminal.messages import put, refuse, say
@@ -19,7 +20,6 @@ from viscontact.identification import (
     ForceCurve,
     IndentationFit,
     IndentationRecord,
-    count_force_curves,
     find_contact,
     read_force_curve,
     read_force_map,
@@ -35,39 +35,6 @@ TABLE = Path("fits.csv")
 _COLUMNS = ("force", "approach", "position", "deflection", "signal")
 #: Most failures that are printed, and curves from which on processes are started.
 _SHOWN, _WORTH_PROCESSES = 10, 8
-
-
-def curve_files(typed: Sequence[Path]) -> list[Path]:
-    """Return files, those of directories, and those that a pattern names."""
-    found: list[Path] = []
-    for path in typed:
-        if path.is_dir():
-            inside = sorted(each for each in path.iterdir() if _is_curve(each))
-            if not inside:
-                refuse(f"{path}: the directory holds no CSV table and no file of an instrument")
-            found += inside
-        elif "*" in path.name and not path.exists():  # a shell of Windows leaves patterns
-            matches = sorted(path.parent.glob(path.name))
-            if not matches:
-                refuse(f"{path}: no file has such a name")
-            found += matches
-        else:
-            found.append(path)
-    return found
-
-
-def _is_curve(path: Path) -> bool:
-    return path.is_file() and (path.suffix.lower() == ".csv" or is_instrument_file(path))
-
-
-def holds_several(files: Sequence[Path]) -> bool:
-    """Whether files have several curves; False for a file that cannot be read."""
-    if len(files) > 1:
-        return True
-    try:
-        return is_instrument_file(files[0]) and count_force_curves(files[0]) > 1
-    except (ValueError, OSError):
-        return False
 
 
 @dataclass(frozen=True)

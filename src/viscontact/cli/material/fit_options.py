@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Self
 
+from viscontact import identification
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.indenters import Cone, FlatPunch, Indenter, Pyramid, Sphere
@@ -13,18 +14,15 @@ from viscontact.bodies.series_fits.prony import FitOptions
 from viscontact.bodies.series_fits.reduced_record import ShiftOptions
 from viscontact.bodies.series_fits.shift_rules import RULES
 from viscontact.identification import (
-    AdhesionFit,
     ForceCurve,
     IndentationFit,
     IndentationRecord,
-    fit_adhesion,
     fit_indentation,
 )
 from viscontact.identification.candidates import CANDIDATES
 from viscontact.identification.fitted_part import PARTS
 from viscontact.identification.force_curve import tabulated_curve
-from viscontact.identification.master_curve import SuperpositionOptions
-from viscontact.identification.vertical_shift import VERTICALS
+from viscontact.identification.vertical_shift import VERTICALS, SuperpositionOptions
 from viscontact.tables import Table
 from viscontact.units.parsing import parse_quantity
 
@@ -202,11 +200,11 @@ class FitArguments:
             thickness=thickness,
         )
 
-    def adhering(self, curve: ForceCurve, indenter: Indenter) -> AdhesionFit:
+    def adhering(self, curve: ForceCurve, indenter: Indenter) -> identification.AdhesionFit:
         """Fit adhesion to a force curve."""
         if self.poisson_ratio is None:
             raise ValueError("--adhesion needs --poisson-ratio, such as 0.5, not --bulk-modulus")
-        return fit_adhesion(curve, indenter, poisson_ratio=self.poisson_ratio)
+        return identification.fit_adhesion(curve, indenter, poisson_ratio=self.poisson_ratio)
 
     def _refuse_terms_of_another_law(self, name: str) -> None:
         """Refuse a number of terms for an indentation whose law has none."""

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from viscontact import identification
 from viscontact.backend.errors import AccuracyWarning
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.series_fits import Fit
@@ -16,22 +17,17 @@ from viscontact.bodies.series_fits.table_fit import fit_measured, loss_note, mea
 from viscontact.cli.material import fit_kinds
 from viscontact.cli.material.fit_kinds import Kind
 from viscontact.cli.material.fit_options import FitArguments, read_kelvin, read_stress
-from viscontact.cli.material.shift_table import print_shifts
 from viscontact.cli.material.table_choice import as_option, say_chosen
 from viscontact.cli.results.figure_files import plot_package
 from viscontact.cli.terminal.messages import put, refuse, say
 from viscontact.identification import (
     ForceCurve,
     IndentationRecord,
-    adhesive_sections,
-    build_master_curve,
     find_contact,
-    fit_master_curve,
     material_section,
     read_force_curve,
 )
 from viscontact.identification.instrument_curves import is_instrument_file
-from viscontact.identification.shift_rows import celsius, shift_rules
 from viscontact.identification.tabulated_sets import with_volume
 from viscontact.tables import Table, read_table
 
@@ -136,6 +132,8 @@ def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[st
         return material_section(fit), drawing
     wanted = read_kelvin("--temperature", arguments.temperature)
     factor = fit.found_shift.shift.factor(wanted)
+    from viscontact.identification.shift_rows import celsius
+
     put(f"At {celsius(wanted)} all times are {factor:.4g} times as long.")
     law, series = (each.slowed(factor) for each in (fit.law, fit.series))
     moved = dataclasses.replace(fit, law=law, series=series)
@@ -144,17 +142,21 @@ def _from_varying_temperature(table: Table, arguments: FitArguments) -> tuple[st
 
 def _from_sets(table: Table, arguments: FitArguments) -> tuple[str, DeferredFigure]:
     """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
+    # Superposition takes a quarter of a second to import.
+    from viscontact.cli.material.shift_table import print_shifts
+    from viscontact.identification.shift_rows import celsius, shift_rules
+
     _refuse_idle(fit_kinds.several_sets(measured_columns(table)[1]), table, arguments)
     options = arguments.options(table)
     reference = None
     if arguments.reference is not None:
         reference = read_kelvin("--reference", arguments.reference)
     with _warnings_said():
-        curve = build_master_curve(table, reference, **arguments.superposition())
+        curve = identification.build_master_curve(table, reference, **arguments.superposition())
     rules = shift_rules(curve)
     print_shifts(curve, rules)
     with _warnings_said():
-        fit = fit_master_curve(curve, weights=arguments.weights, **options)
+        fit = identification.fit_master_curve(curve, weights=arguments.weights, **options)
     fit = with_volume(fit, *arguments.volume())
     put(f"\nAt {celsius(curve.reference_temperature)}:\n{fit!r}")
     drawing = DeferredFigure("master_curve", curve, fit=fit, rules=rules)
@@ -194,7 +196,7 @@ def _from_force_curve(
         with _warnings_said():
             fit = arguments.adhering(curve, indenter)
         put(repr(fit))
-        return adhesive_sections(fit), DeferredFigure("fitted_adhesion", fit)
+        return identification.adhesive_sections(fit), DeferredFigure("fitted_adhesion", fit)
     contact = (
         find_contact(curve, indenter)
         if arguments.reach is None

@@ -19,7 +19,6 @@ from viscontact.identification import (
     fit_master_curve,
     material_section,
 )
-from viscontact.identification.master_curve import SuperpositionOptions
 from viscontact.identification.shift_rows import (
     celsius,
     shift_head,
@@ -28,6 +27,7 @@ from viscontact.identification.shift_rows import (
     shift_rules,
 )
 from viscontact.identification.tabulated_sets import isotherms_of, usual_reference, with_volume
+from viscontact.identification.vertical_shift import SuperpositionOptions
 from viscontact.tables import Table, read_table
 from viscontact.web.cases.case_reader import CaseReader, form_values
 from viscontact.web.cases.fit_fields import quantities_of, uploaded_file
