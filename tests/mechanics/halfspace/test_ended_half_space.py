@@ -10,7 +10,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.end_correction import end_basis
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_half_space import EndedResponse, ended_rows
 from viscontact.mechanics.halfspace.free_end import end_functions
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
 from viscontact.mechanics.halfspace.periodic_influence import smooth_periodic_table
@@ -207,3 +207,16 @@ def test_interpolated_images_are_those_of_the_periodic_table(shape: tuple[int, i
     assert smooth_periodic_table(shape, cell, width) == close_to(
         exact, abs=1e-13 * float(np.abs(exact).max())
     )
+
+
+def test_coefficients_of_a_block_are_those_of_fewer_cells() -> None:
+    basis = end_basis(0.3, range(12), (1.0, 1.0))
+    for cells in (5, 3, 9, 9):
+        assert basis.table(cells, 0.5) == close_to(basis.coefficients(cells, 0.5), rel=1e-12)
+
+
+def test_rows_of_small_grids_are_kept() -> None:
+    asked = (EndedResponse(0.3, (-6.0, 6.0), (True, True)), (16, 12), (1.0, 1.0), (2, 14))
+    assert ended_rows(*asked) is ended_rows(*asked)
+    large = (asked[0], (16, 4000), *asked[2:])
+    assert ended_rows(*large) is not ended_rows(*large)

@@ -253,7 +253,10 @@ class ContactDomain:
         """Approximate inverse of the convolution over a block of cells from a row on."""
         if self._parts:
             return self._on_block(shape, start).preconditioner(self._parts)
-        return self._preconditioner_of(self.response, shape)
+        found = None
+        if has_ends(self.response):
+            found = self._ended.preconditioner(self.response, shape, start, self._workspace)
+        return self._preconditioner_of(self.response, shape) if found is None else found
 
     def _preconditioner_of(
         self, response: SurfaceResponse, shape: tuple[int, int]

@@ -2,20 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
-from viscontact.backend.team import Team
-from viscontact.backend.transforms import Transforms
+import numpy as np
+
+from viscontact.backend.team import Team, Workspace
+from viscontact.backend.transforms import Field, Transforms
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.ended_half_space import (
     EndedConvolution,
+    EndedLayers,
     EndedResponse,
     EndedRows,
     ended_rows,
     parts_of,
 )
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
+from viscontact.mechanics.halfspace.preconditioner import Preconditioner
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
+
+
+class EndedPreconditioner(Preconditioner):
+    """Preconditioner of a block in which all bodies that touch end at common planes.
+
+    Between them, and to the edge of the block where there is one only, waves are even, as under the
+    pressure with its images. Beyond a plane nothing is done.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        inside: slice,
+        cell_size: tuple[float, float],
+        **options: Any,
+    ) -> None:
+        """Take the rows within the bodies; `options` are those of a preconditioner."""
+        super().__init__((inside.stop - inside.start, shape[1]), cell_size, **options)
+        self._block, self._inside = shape, inside
+
+    def apply(self, displacement: Field, into: Field | None = None) -> Field:
+        """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
+        return self._within(super().apply, displacement, into)
+
+    def stiffness_of(self, cells: Field, into: Field | None = None) -> Field:
+        """Stiffness where some cells are displaced by 1, others by 0 [1/m]."""
+        return self._within(super().stiffness_of, cells, into)
+
+    def _within(
+        self, compute: Callable[[Field, Field], Field], field: Field, into: Field | None
+    ) -> Field:
+        """Result on the rows within the bodies, and zero beyond."""
+        result = np.empty(self._block, np.float32) if into is None else into
+        compute(field[self._inside], result[self._inside])
+        result[: self._inside.start] = result[self._inside.stop :] = 0.0
+        return result
 
 
 class EndedOperators:
@@ -48,6 +90,35 @@ class EndedOperators:
             mirrored=self._mirrored[1],
             single=single,
             transforms=self._transforms,
+            team=self._team,
+        )
+
+    def preconditioner(
+        self,
+        response: SurfaceResponse,
+        shape: tuple[int, int],
+        start: int,
+        workspace: Workspace,
+    ) -> Preconditioner | None:
+        """Preconditioner over a block of cells, if all bodies end at common planes."""
+        parts = [part for part, _ in parts_of(response)]
+        borders = {
+            self._borders_of(part) if isinstance(part, EndedResponse) else None for part in parts
+        }
+        if len(borders) > 1 or any(isinstance(part, EndedLayers) for part in parts):
+            return None
+        before, after = borders.pop() or (None, None)
+        first = max((before or 0) - start, 0)
+        last = shape[0] if after is None else min(after - start, shape[0])
+        if last - first < 2:
+            return None
+        return EndedPreconditioner(
+            shape,
+            slice(first, last),
+            self._grid.cell_size,
+            mirrored=(True, self._mirrored[1]),
+            transforms=self._transforms,
+            workspace=workspace,
             team=self._team,
         )
 

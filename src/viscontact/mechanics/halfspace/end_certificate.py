@@ -10,6 +10,7 @@ left on a face that is free of stress.
 from __future__ import annotations
 
 from dataclasses import field
+from functools import lru_cache
 
 import numpy as np
 
@@ -154,7 +155,7 @@ def _beside_one_end(
 ) -> Floats:
     """Stress left on the face of a body that goes on; shape (waves, depths)."""
     known = halfspace.free_end.images(ratio)
-    across = _waves_across_one_end(face, waves, float(depths[0]))
+    across = _waves_across_one_end(face.distances.tobytes(), float(waves.min()), float(depths[0]))
     end = float(np.exp(known.panels.edges[-1])) * (1 - 1e-12)
     left = np.empty((len(waves), len(depths)))
     for index, (wave, own) in enumerate(zip(waves.tolist(), loads, strict=True)):
@@ -169,16 +170,18 @@ def _beside_one_end(
     return left
 
 
-def _waves_across_one_end(face: Face, waves: Floats, first_depth: float) -> Waves:
-    """Waves across the face of a body that goes on."""
-    extent, cell = float(face.distances[-1]), float(np.diff(face.distances)[0])
+@lru_cache(maxsize=1)  # of both ends, where the grid is as long beyond the one as beyond the other
+def _waves_across_one_end(borders: bytes, longest: float, first_depth: float) -> Waves:
+    """Waves across the face of a body that goes on, from borders of rows as they are in memory."""
+    distances = np.frombuffer(borders)
+    extent, cell = float(distances[-1]), float(np.diff(distances)[0])
     first, length = FIRST_ACROSS / extent, TURNS / extent
     growing = first * 2.0 ** np.arange(max(np.ceil(np.log2(length / first)), 1))
     even = np.arange(growing[-1] + length, DECAYED / first_depth + length, length)
     across, weights = panel_nodes(np.concatenate([[0.0], growing, even]), ACROSS)
-    farthest = halfspace.free_end.HIGHEST / float(waves.min())
+    farthest = halfspace.free_end.HIGHEST / longest
     panels = LogPanels.over(NEAREST * cell, farthest, RATIO)
-    of_rows = np.diff(np.sin(np.multiply.outer(across, face.distances)), axis=1) / across[:, None]
+    of_rows = np.diff(np.sin(np.multiply.outer(across, distances)), axis=1) / across[:, None]
     of_nodes = halfspace.strip.cosine_transform(panels, across)
     return Waves(across, 2 / np.pi * weights, of_rows, of_nodes, panels)
 

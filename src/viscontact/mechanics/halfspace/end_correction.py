@@ -15,7 +15,7 @@ functions is convolved along y by padded transforms, and the result is expanded.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import field, replace
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
@@ -39,6 +39,9 @@ NODES, FIRST_WAVE = 8, 1e-3
 #: Cells at the end in which means are exact; beyond, two Gauss points give them.
 EXACT_CELLS = 8
 
+#: Places at which functions are found together.
+TOGETHER = 4000
+
 #: Largest entry of G that a basis may leave out, relative to the largest one.
 NEGLECTED = 1e-7
 
@@ -52,6 +55,15 @@ class EndBasis:
     #: Times the cell's length: mean below the first border, then at all nodes; shape (wave numbers,
     #: rank, rank) [m].
     products: Floats
+    #: Coefficients at offsets along y of the most cells so far, by the length of a cell.
+    _tables: dict[float, Floats] = field(default_factory=dict, init=False, repr=False)
+
+    def table(self, cells: int, edge: float) -> Floats:
+        """The same as `coefficients`, kept for blocks of fewer cells."""
+        known = self._tables.get(edge)
+        if known is None or len(known) < cells:
+            known = self._tables[edge] = self.coefficients(cells, edge)
+        return known[:cells]
 
     def coefficients(self, cells: int, edge: float) -> Floats:
         """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
@@ -105,7 +117,7 @@ def end_basis(
     waves, weights = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at lowest/e.
     waves, weights = np.append(lowest / math.e, waves), np.append(lowest, weights)
-    means = np.stack([row_means(functions, wave * edge, rows) for wave in waves])
+    means = row_means(functions, waves * edge, rows)
     scaled = np.sqrt(weights)[:, None, None] * means
     flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
     diagonal = np.einsum("rk,rk->r", flat, flat)
@@ -115,16 +127,21 @@ def end_basis(
     return EndBasis(basis, borders, edge * (projected @ projected.swapaxes(1, 2)))
 
 
-def row_means(functions: EndFunctions, edge: float, rows: range) -> Floats:
-    """Means of φ_m over rows of a length k dx; shape (rows, m)."""
-    begin = np.arange(rows.start, rows.stop, dtype=np.float64) * edge
-    before, after = (functions.at(begin + edge * (0.5 + side / 12**0.5)) for side in (-1, 1))
-    found = (before + after) / 2
+def row_means(functions: EndFunctions, edges: Floats, rows: range) -> Floats:
+    """Means of φ_m over rows of lengths k dx, for some k; shape (k, rows, m)."""
+    begin = np.arange(rows.start, rows.stop, dtype=np.float64)
     exact = max(0, min(EXACT_CELLS - rows.start, len(rows)))
-    if exact:
-        ends = np.append(begin[:exact], begin[exact - 1] + edge)
-        found[:exact] = np.diff(functions.integral_until(ends), axis=0) / edge
-    return found
+    ends = np.append(begin[:exact], begin[exact - 1 : exact] + 1)
+    found = []
+    for part in np.array_split(edges, math.ceil(len(edges) * len(rows) / TOGETHER)):
+        places = (np.multiply.outer(part, begin + 0.5 + side / 12**0.5) for side in (-1, 1))
+        before, after = (functions.at(place) for place in places)
+        means = (before + after) / 2
+        if exact:
+            whole = functions.integral_until(np.multiply.outer(part, ends))
+            means[:, :exact] = np.diff(whole, axis=1) / part[:, None, None]
+        found.append(means)
+    return np.concatenate(found)
 
 
 class EndCorrection:
@@ -145,7 +162,7 @@ class EndCorrection:
         self._basis = np.ascontiguousarray(near.basis[rows], number)
         self._mirrored = mirrored
         self._length = fast_length(2 * columns - 1)
-        table = near.coefficients(columns, cell_size[1])
+        table = near.table(columns, cell_size[1])
         waves, offsets = np.arange(self._length // 2 + 1), np.arange(columns)
         cosines = np.cos(2 * np.pi * np.outer(waves, offsets) / self._length)
         cosines[:, 1:] *= 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -32,6 +33,10 @@ if TYPE_CHECKING:
         EndCorrection,
         MovingEndCorrection,
     )
+
+
+#: Most cells of a domain whose rows are kept beyond it.
+KEPT_CELLS = 50_000
 
 
 @dataclass(frozen=True)
@@ -131,6 +136,18 @@ def ended_rows(
     moving: MovingCompliance | None = None,
 ) -> EndedRows:
     """Rows of a domain of a shape that has all columns, with planes at borders of its rows."""
+    few = moving is None and shape[0] * shape[1] <= KEPT_CELLS
+    return (_kept_rows if few else _rows)(response, shape, cell_size, borders, moving)
+
+
+def _rows(
+    response: EndedResponse,
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    borders: tuple[int | None, int | None],
+    moving: MovingCompliance | None,
+) -> EndedRows:
+    """The same, computed."""
     before, after = borders
     begin = max(before or 0, 0)
     end = shape[0] if after is None else min(after, shape[0])
@@ -138,6 +155,9 @@ def ended_rows(
     longest = 0.0 if moving is None else float(moving.lengths.max(initial=0.0))
     shared = (cell_size, width, longest)
     bases = _bases_of_ends(response, range(begin, end), borders, *shared)
+    if moving is None:
+        for basis in bases:
+            basis.table(shape[1], cell_size[1])  # of all columns at once
     if moving is not None:
         count = end if after is None else after - (before or 0)
         part = (count, shape[1])
@@ -158,6 +178,10 @@ def ended_rows(
             else periodic_layered_table(cells, cell_size, layers, width)
         )
     return EndedRows(borders, table, bases, begin)
+
+
+#: Kept rows of small grids: an automatic grid is found by several solutions on each of some grids.
+_kept_rows = lru_cache(maxsize=8)(_rows)
 
 
 def _moving_table(

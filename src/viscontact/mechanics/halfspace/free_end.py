@@ -28,6 +28,7 @@ import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.halfspace.cubic_curves import CubicCurves
 from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
 
 #: First and last place of the panels, and ratio of the ends of a panel. What a load sends nearer
@@ -48,13 +49,13 @@ class EndFunctions:
     poisson_ratio: float
     neglected: float  # largest entry left out of g, over the largest entry [-]
     asymmetry: float  # |g(X, X') - g(X', X)| before it is made symmetric, likewise [-]
-    _values: scipy.interpolate.CubicSpline  # of ln X
-    _means: scipy.interpolate.CubicSpline  # of ln X: mean of φ from 0 to X
+    _values: CubicCurves  # of ln X
+    _means: CubicCurves  # of ln X: mean of φ from 0 to X
     _nearest: float
 
     def at(self, place: Floats) -> Floats:
         """φ_m at places X >= 0, shape (..., m); zero far from the end."""
-        found = np.zeros((*place.shape, self._values.c.shape[-1]))
+        found = np.zeros((*place.shape, self._values.count))
         near = place < HIGHEST
         found[near] = self._values(np.log(np.maximum(place[near], self._nearest)))
         return found
@@ -92,8 +93,8 @@ def end_functions(poisson_ratio: float) -> EndFunctions:
         poisson_ratio,
         left / float(g.max()),
         float(np.abs(raw - raw.T).max() / g.max()),
-        scipy.interpolate.CubicSpline(near.logarithms, factors),
-        scipy.interpolate.CubicSpline(near.logarithms, means),
+        CubicCurves.through(near.logarithms, factors),
+        CubicCurves.through(near.logarithms, means),
         float(near.places[0]),
     )
 
@@ -130,11 +131,13 @@ def _stress(panels: LogPanels, poisson_ratio: float) -> Floats:
     """Stress s on the other face at depths Z (columns) of unit line loads at X (rows)."""
     along, depth = panels.places[:, None], panels.places
     distance = np.hypot(along, depth)
+    order_0 = scipy.special.k0(distance)
     # ∫_Z^∞ K_0(√(X² + t²)) dt from its value at Z = 0, (π/2) exp(-X), would lose digits far away.
-    below = panels.integrals_until(scipy.special.k0(distance).T).T
-    beyond = panels.weights @ scipy.special.k0(distance).T
+    below = panels.integrals_until(order_0.T).T
+    beyond = panels.weights @ order_0.T
     tail = beyond[:, None] - below
-    radial = along**2 * depth * scipy.special.kv(2, distance) / distance**2
+    order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
+    radial = along**2 * depth * order_2 / distance**2
     return np.asarray((radial - (1 - 2 * poisson_ratio) * tail) / np.pi)
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legvander
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
 
 #: Gauss nodes in each panel.
@@ -28,7 +28,7 @@ _COEFFICIENTS = np.linalg.inv(legvander(_T, NODES - 1))  # Legendre's, from valu
 
 @dataclass(frozen=True, eq=False)
 class LogPanels:
-    """Panels between `edges` of ln X."""
+    """Panels between `edges` of ln X, all of one length."""
 
     edges: Floats
 
@@ -87,29 +87,34 @@ class LogPanels:
         distance = np.abs(self.places[:, None] - self.places)
         np.fill_diagonal(distance, 1.0)
         found = kernel(distance) * self.weights
-        for panel in range(len(self.edges) - 1):
-            for near in range(max(panel - 1, 0), min(panel + 2, len(self.edges) - 1)):
-                columns = slice(near * NODES, (near + 1) * NODES)
-                for row in range(panel * NODES, (panel + 1) * NODES):
-                    found[row, columns] = self._near_weights(kernel, row, near)
+        panels = np.arange(len(self.edges) - 1)
+        for node in range(NODES):
+            for side in (-1, 0, 1):
+                near = panels[(panels + side >= 0) & (panels + side < len(panels))] + side
+                rows = (near - side) * NODES + node
+                columns = near[:, None] * NODES + np.arange(NODES)
+                found[rows[:, None], columns] = self._near_weights(kernel, rows, node, side)
         return found
 
-    def _near_weights(self, kernel: Callable[[Floats], Floats], row: int, panel: int) -> Floats:
-        """Weights of one node, on its own panel or the one beside."""
-        begin, end = self.edges[panel : panel + 2]
-        at = self.logarithms[row]
-        nearest = min(max(at, begin), end)
-        parts = ON_PANEL if nearest == at else BESIDE
-        ends = [nearest + (side - nearest) * parts for side in (begin, end) if side != nearest]
+    def _near_weights(
+        self, kernel: Callable[[Floats], Floats], rows: Integers, node: int, side: int
+    ) -> Floats:
+        """Weights of rows that are one node of their panels, on these or on those beside."""
+        # Panels are of one length, so that nodes lie alike about each row.
+        length = float(self.edges[1] - self.edges[0])
+        begin = (side - (1 + _T[node]) / 2) * length
+        end = begin + length
+        nearest = min(max(0.0, begin), end)
+        parts = ON_PANEL if nearest == 0.0 else BESIDE
+        ends = [nearest + (each - nearest) * parts for each in (begin, end) if each != nearest]
         low, high = (np.concatenate([each[k : len(each) - 1 + k] for each in ends]) for k in (0, 1))
         half = np.abs(high - low)[:, None] / 2
-        logarithm = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _SUB_T
+        beyond = ((low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _SUB_T).ravel()
         # Differences of places near to each other, without cancellation.
-        distance = self.places[row] * np.abs(np.expm1(logarithm - at))
-        weights = half * _SUB_W * np.exp(logarithm) * kernel(distance)
-        along = (2 * logarithm - begin - end) / (end - begin)
-        polynomials = legvander(along.ravel(), NODES - 1) @ _COEFFICIENTS
-        return np.asarray(weights.ravel() @ polynomials)
+        distance = np.multiply.outer(self.places[rows], np.abs(np.expm1(beyond)))
+        weights = np.multiply.outer(self.places[rows], (half * _SUB_W).ravel() * np.exp(beyond))
+        polynomials = legvander((2 * beyond - begin - end) / length, NODES - 1) @ _COEFFICIENTS
+        return np.asarray((weights * kernel(distance)) @ polynomials)
 
 
 def interpolation(places: Floats) -> Floats:

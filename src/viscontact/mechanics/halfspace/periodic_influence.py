@@ -29,7 +29,12 @@ from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.influence import influence_coefficient
 
 #: Gauss's rule over an edge of a cell, on [-1, 1], for what is smooth over it.
-GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
+GAUSS_NODES, GAUSS_WEIGHTS = GAUSS = np.polynomial.legendre.leggauss(4)
+
+#: The same over an edge that is short against a period, and the longest such edge over it: beyond
+#: the images that are summed one by one, what is smooth is a cubic over it, to rounding.
+SHORT_NODES, SHORT_WEIGHTS = np.polynomial.legendre.leggauss(2)
+SHORT = 1 / 32
 
 #: Images on either side that are summed one by one: at least these, and up to this many lengths of
 #: a cell across.
@@ -76,7 +81,8 @@ def smooth_periodic_table(
         for image in range(-images, images + 1)
     )
     along, across = (_nodes_among(each, period) for each in (x, y))
-    far = _far_images(along[:, None], across[None, :], cell_size, period, images, datum)
+    rule = (SHORT_NODES, SHORT_WEIGHTS) if max(dx, dy) < SHORT * period else GAUSS
+    far = _far_images(along[:, None], across[None, :], cell_size, period, images, datum, rule)
     half = near + _between(x, along) @ far @ _between(y, across).T
     offsets = np.arange(nx)
     return np.asarray(half[np.minimum(offsets, nx - offsets)])
@@ -109,13 +115,14 @@ def _far_images(
     period: float,
     images: int,
     datum: float,
+    rule: tuple[Floats, Floats] = GAUSS,
 ) -> Floats:
     """Mean over the cell of the sums beyond the images on both sides, times its area over π."""
     dx, dy = cell_size
     total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
     begin = (images + 0.5) * period
-    for node_x, weight_x in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
-        for node_y, weight_y in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
+    for node_x, weight_x in zip(*rule, strict=True):
+        for node_y, weight_y in zip(*rule, strict=True):
             east, north = x - node_x * dx / 2, y - node_y * dy / 2
             for along in (begin + east, begin - east):
                 total += weight_x * weight_y / 4 * _tail(along, north, period, datum)

@@ -28,7 +28,7 @@ and to 6 x x' / (W² (1 - ν)(3 + ν)) under odd ones, which bend it.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
@@ -103,7 +103,7 @@ class StripTable:
         """Largest k W of the table."""
         return HIGHEST_WAVE
 
-    @property
+    @cached_property
     def entries(self) -> Floats:
         """Coefficients and limit, shape (coefficients, nodes, nodes)."""
         return np.concatenate([self.coefficients, self.limit[None]])

@@ -127,9 +127,7 @@ def strip_basis(
     of_table = table.weights(waves[long] * half_length)
     near = range(int(distance.min()), int(distance.max()) + 1)
     functions, order = end_functions(poisson_ratio), distance.astype(int) - near.start
-    short = signs * np.stack(
-        [row_means(functions, k * cell_size[0], near)[order] for k in waves[~long]]
-    )
+    short = signs * row_means(functions, waves[~long] * cell_size[0], near)[:, order]
     # All waves add up at y = 0, where the largest entries are left out.
     total = means @ np.tensordot(measures[long] @ of_table, table.entries, axes=1) @ means.T
     scaled = np.sqrt(measures[~long])[:, None, None] * short
