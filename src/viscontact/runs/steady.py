@@ -150,14 +150,16 @@ def steady(  # noqa: PLR0913
 
     Tractions displace the surface along itself in the same way. Where the surface sticks its
     displacement grows backwards by the creepage times the way, from the leading edge on; it slips
-    where this would take more than friction times the pressure (Carter 1926). Pressure and
-    tractions must not be coupled: two equal bodies, Poisson's ratio 1/2, or
-    ``Friction(..., coupling=False)``.
+    where this would take more than friction times the pressure (Carter 1926). Where pressure and
+    tractions are coupled (two bodies that differ, not of Poisson's ratio 1/2) they are solved
+    together, of elastic half-spaces and at one creepage, which has a pressure of its own (Bufler
+    1959); otherwise ``Friction(..., coupling=False)`` neglects it.
 
     References
     ----------
     S. C. Hunter, J. Appl. Mech. 28 (1961) 611; I. G. Goryacheva, *Contact Mechanics in Tribology*,
-    Kluwer 1998, chapter 6; F. W. Carter, Proc. R. Soc. Lond. A 112 (1926) 151.
+    Kluwer 1998, chapter 6; F. W. Carter, Proc. R. Soc. Lond. A 112 (1926) 151; H.
+    Bufler, Ing.-Arch. 28 (1959) 157.
 
     Examples
     --------

@@ -16,6 +16,7 @@ from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.steady_equilibrium import SteadySolution, solve_steady_contact
+from viscontact.mechanics.rolling_traction import RollingTraction
 from viscontact.simulation.steady_motion.moving_law import MovingLaws
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 
@@ -43,6 +44,9 @@ class SteadyContact:
     speed: float  # [m/s]
     domain: MovingDomain
     solution: SteadySolution
+    #: Displacement into the surface by tractions of coupled bodies [m], and these tractions.
+    lift: Floats | None = None
+    traction: RollingTraction | None = None
 
     @property
     def grid(self) -> Grid:
@@ -73,7 +77,8 @@ class SteadyContact:
     def displacement(self) -> Floats:
         """Displacement on the whole grid [m]."""
         unit = self.domain.expand_by_symmetry(self.solution.found.unit_displacement)
-        return self.domain.compliance * unit
+        under_pressure = self.domain.compliance * unit
+        return under_pressure if self.lift is None else under_pressure + self.lift
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +90,23 @@ class SteadySolver:
     transforms: Transforms
 
     def solve(
-        self, speed: float, grid: Grid, tolerance: float, near: Neighbour | None = None
+        self,
+        speed: float,
+        grid: Grid,
+        tolerance: float,
+        near: Neighbour | None = None,
+        *,
+        lift: Floats | None = None,
     ) -> SteadyContact:
-        """Solve at a speed [m/s], from a contact on other cells at a similar speed if given."""
+        """Solve at a speed [m/s], from a contact on other cells at a similar speed if given.
+
+        Tractions displace the surface into itself by `lift` [m].
+        """
         open_gap = gap_on(self.problem, grid)
         axis = self.problem.axis
         even = self.is_even_across(grid, open_gap)
+        if lift is not None:
+            open_gap = open_gap + lift
         extent = max(grid.size_about_origin)
         domain = MovingDomain(
             grid, self.laws.at(speed, extent), axis, mirrored=even, transforms=self.transforms
@@ -104,7 +120,7 @@ class SteadySolver:
         )
         guess = None if near is None else _guess(near, domain)
         solution = solve_steady_contact(posed, domain, guess, tolerance=tolerance)
-        return SteadyContact(speed, domain, solution)
+        return SteadyContact(speed, domain, solution, lift)
 
     def is_even_across(self, grid: Grid, open_gap: Floats) -> bool:
         """True if gap, load and ends are even across the motion."""
@@ -113,8 +129,8 @@ class SteadySolver:
         loads = alike and contact.load.is_even(0), contact.load.is_even(1)
         return mirrored_axes(grid, open_gap, loads)[1 - self.problem.axis]
 
-    def coarser(self, speed: float, grid: Grid, tolerance: float) -> SteadyContact | None:
-        """Solve on half the cells along each axis; None where there are few.
+    def coarser_grid(self, grid: Grid) -> Grid | None:
+        """Half the cells along each axis; None where there are few.
 
         They are kept along a period in which nothing varies.
         """
@@ -124,8 +140,7 @@ class SteadySolver:
             return None
         nx, ny = (cells if keeps else (cells + 1) // 2 for cells, keeps in pairs)
         coarse = replace(grid, shape=(nx, ny))
-        coarse = with_borders_at(coarse, self.problem.contact.planes)
-        return self.solve(speed, coarse, tolerance)
+        return with_borders_at(coarse, self.problem.contact.planes)
 
     def _is_uniform(self, grid: Grid, axis: int) -> bool:
         """True for a periodic axis along which the body is a cylinder."""

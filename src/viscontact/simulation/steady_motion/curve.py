@@ -42,7 +42,13 @@ from viscontact.simulation.checks.tested_limits import (
     limited_bodies,
     temperature_warnings,
 )
-from viscontact.simulation.steady_motion.contact import Neighbour, SteadyContact, gap_on
+from viscontact.simulation.steady_motion.contact import (
+    Neighbour,
+    SteadyContact,
+    SteadySolver,
+    gap_on,
+)
+from viscontact.simulation.steady_motion.coupled import CoupledSolver
 from viscontact.simulation.steady_motion.error_bars import (
     Measured,
     entry_is_singular,
@@ -53,6 +59,7 @@ from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.state import force_across, resistance_of, rim_of, state_of
 from viscontact.simulation.steady_motion.traction_bars import (
+    coupled_extents,
     traction_bars,
     unknown_traction_bars,
 )
@@ -125,9 +132,10 @@ class SteadyCurve:
 
     def _solve(self, speed: float, grid: Grid) -> tuple[ContactState, dict[str, str]]:
         """State and warnings of the contact at one speed."""
-        solver, problem = self._run.solver, self._run.problem
+        solver, problem = self._run.coupled or self._run.solver, self._run.problem
         tolerance = problem.contact.tolerance
-        coarse = solver.coarser(speed, grid, tolerance) if self._errors else None
+        coarser = self._run.solver.coarser_grid(grid) if self._errors else None
+        coarse = _solved_if_any(solver, speed, coarser, tolerance)
         near = _nearby_contact(self._before, speed, grid) if coarse is None else coarse.neighbour
         contact = solver.solve(speed, grid, tolerance, near)
         work = contact.solution.work
@@ -165,6 +173,8 @@ class SteadyCurve:
         }
         if traction is None:
             return bars
+        if problem.contact.is_coupled:
+            bars |= coupled_extents(bars)
         try:
             rough = self._with_traction(other, coarse).state.rolling_traction
         except ConvergenceError:
@@ -196,7 +206,18 @@ class SteadyCurve:
         solver = self._run.tractions
         if solver is None:
             return found
-        return replace(found, state=replace(found.state, rolling_traction=solver.solve(contact)))
+        traction = contact.traction or solver.solve(contact)
+        return replace(found, state=replace(found.state, rolling_traction=traction))
+
+
+def _solved_if_any(
+    solver: SteadySolver | CoupledSolver, speed: float, grid: Grid | None, tolerance: float
+) -> SteadyContact | None:
+    """Contact on a coarser grid; None without one, or where coupled bodies are not solved there."""
+    try:
+        return None if grid is None else solver.solve(speed, grid, tolerance)
+    except ConvergenceError:
+        return None
 
 
 def _nearby_contact(before: Neighbour | None, speed: float, grid: Grid) -> Neighbour | None:

@@ -25,6 +25,7 @@ from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.meshing.line_grid import line_axis, line_estimate, line_grid
 from viscontact.simulation.steady_motion.contact import SteadySolver, gap_on
+from viscontact.simulation.steady_motion.coupled import CoupledSolver
 from viscontact.simulation.steady_motion.moving_law import (
     MovingLaws,
     ShearLaw,
@@ -89,6 +90,14 @@ class SteadySetup:
         if not self.shear:
             return None
         return TractionSolver(self.problem, self.shear, self.solver.transforms)
+
+    @property
+    def coupled(self) -> CoupledSolver | None:
+        """Solver of contact and tractions together; None of bodies that are not coupled."""
+        tractions = self.tractions
+        if tractions is None or not self.problem.contact.is_coupled:
+            return None
+        return CoupledSolver(self.solver, tractions)
 
     @cached_property
     def tilts_from_datum(self) -> bool:

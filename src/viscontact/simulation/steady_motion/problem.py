@@ -12,6 +12,7 @@ from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.steady_motion import SteadyMotion, constant_load
 from viscontact.bodies.loads.temperature import require_constant
+from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import creeps
 from viscontact.simulation.checks.friction import (
@@ -115,7 +116,23 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
             "creepage: a body on a grid that is periodic along its motion has no end, and cannot "
             "roll; leave friction and creepage out"
         )
-    refuse_coupled(contact, "in steady motion (elastic bodies may roll over time, by simulate)")
+    if contact.is_coupled:
+        _check_coupled(contact, motion)
+
+
+def _check_coupled(contact: Problem, motion: SteadyMotion) -> None:
+    """Refuse coupled bodies that creep or have layers, or whose pressure there would be many of."""
+    if not contact.surface.creep.is_elastic:
+        refuse_coupled(contact, "in steady motion of bodies that creep")
+    if any(isinstance(body, Layered) for body in contact.bodies):
+        refuse_coupled(contact, "in steady motion over layers")
+    if len(motion.creepages) > 1:
+        raise ValueError(
+            "creepage: pressure and tractions of these bodies are coupled, so that each creepage "
+            f"has a pressure of its own, and a result holds one at each speed; got "
+            f"{len(motion.creepages)} creepages; give one, and the others in runs of their own "
+            "(viscontact sweep over motion.creepage), or coupling=False, which neglects it"
+        )
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -34,13 +35,15 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
     """Resistance along the motion."""
     axis, grid = problem.axis, contact.grid
     chord = mean_chords(contact.in_contact, periodic=grid.periodic)[axis] * grid.cell_size[axis]
-    return resistance(
+    found = resistance(
         problem.body_on(grid),
         contact.domain,
         contact.solution.values[0],
         _tilts(contact),
         float(chord) / 2,
     )
+    # What moves the pressure of coupled bodies ahead is lost by slip, not in them.
+    return found if contact.lift is None else replace(found, slope_weight=1.0, at_end=False)
 
 
 def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:
@@ -114,7 +117,7 @@ def state_of(
         resistance_x=forces[0],
         resistance_y=forces[1],
         friction_coefficient=forces[axis] / force,
-        dissipation=forces[axis] * contact.speed,
+        dissipation=(forces[axis] if contact.lift is None else 0.0) * contact.speed,
         speed=contact.speed,
         temperature=problem.contact.constant_temperature,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -44,15 +45,21 @@ class TractionSolver:
     laws: tuple[ShearLaw, ...]
     transforms: Transforms
 
-    def solve(self, contact: SteadyContact) -> RollingTraction:
-        """Solve for the tractions under a contact; ConvergenceError at a creepage without them."""
+    def solve(self, contact: SteadyContact, along: Floats | None = None) -> RollingTraction:
+        """Solve for the tractions under a contact; ConvergenceError at a creepage without them.
+
+        Its pressure displaces the surface along itself by `along` [m], shape (2, nx, ny).
+        """
         under = _Pressed.of(self.problem, contact, self.transforms)
         shear = moving_shear(self.laws, contact.speed, max(contact.grid.size_about_origin))
         posed = _posed(under, shear, self.transforms)
+        if along is not None:
+            stretch = along - np.roll(along, -1, axis=1 + under.axis)
+            posed = replace(posed, stretch=stretch[:, *under.region.cut])
         found = []
         start = np.zeros((2, *under.region.shape))
         for creepage in self.problem.motion.creepages:
-            if creepage:
+            if creepage or along is not None:
                 solution = self._solved(posed, creepage, start, contact.speed)
                 start = solution.traction
             else:

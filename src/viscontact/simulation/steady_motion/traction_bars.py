@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats
@@ -17,6 +19,15 @@ LEAST_FORCE, LEAST_LOSS, LEAST_POWER = 2.0, 4.0, 1.0
 #: Error of the boundary between sticking and slipping cells along the motion, in cells.
 BOUNDARY_CELLS = 1.0
 
+#: Of coupled bodies, which slip forth and back, and whose force passes through zero under a
+#: creepage of its own: errors of the force over what friction carries and of the power over that
+#: times a creepage of μ a/R, times the square of the cells along the contact (at most 9 and 8 where
+#: half of 14 to 40 cells stick), and of the boundaries in cells, where all cells slip, too.
+COUPLED_FORCE, COUPLED_POWER, COUPLED_BOUNDARY_CELLS = 10.0, 8.0, 2.0
+
+#: Bars of the extents of their contact over those without friction.
+COUPLED_EXTENTS = 3.0
+
 
 def traction_bars(
     problem: SteadyProblem, fine: Measured, traction: RollingTraction, coarse: RollingTraction
@@ -28,6 +39,10 @@ def traction_bars(
     square, slides = cells**2, traction.slip_fraction == 1
     # A boundary that is a cell off, where there is one.
     boundary = np.where(slides | (traction.slip_fraction == 0), 0.0, BOUNDARY_CELLS / cells)
+    floors: dict[str, float] = {}
+    if problem.contact.is_coupled:
+        boundary = np.full(slides.shape, COUPLED_BOUNDARY_CELLS / cells)
+        floors = _coupled_floors(problem, fine, along, square)
     # A power that is a small part of what the traction brings in has its error.
     power = np.abs(traction.friction_power) + np.abs(traction.traction_dissipation)
     slipping = np.maximum(traction.slip_fraction * cells, 1.0) ** 2
@@ -42,8 +57,30 @@ def traction_bars(
     for name in curves_with_error():
         value, other = getattr(traction, name), getattr(coarse, name)
         least = sizes.get(name, (LEAST_FORCE / square + solver) * np.abs(value))
-        bars[name] = np.maximum(np.abs(value - other), least)
+        bars[name] = np.maximum(np.abs(value - other), np.maximum(least, floors.get(name, 0.0)))
     return bars
+
+
+def _coupled_floors(
+    problem: SteadyProblem, fine: Measured, along: float, square: float
+) -> dict[str, float]:
+    """Least bars of coupled bodies, of a contact as long as `along` [m]."""
+    friction, axis = problem.contact.friction, problem.axis
+    assert friction is not None  # of a problem with creepages
+    carried = friction.coefficient * fine.state.force
+    force, curvature = COUPLED_FORCE / square * carried, problem.contact.indenter.curvatures[axis]
+    slip = friction.coefficient * along / 2 * curvature  # the creepage at which a body slides
+    return {
+        f"tangential_force_{'xy'[axis]}": force,
+        "drive_torque": force / curvature if curvature > 0 else 0.0,
+        "friction_power": COUPLED_POWER / square * carried * slip * fine.state.speed,
+    }
+
+
+def coupled_extents(bars: Mapping[str, float | Floats]) -> dict[str, float | Floats]:
+    """Bars of a contact of coupled bodies, whose rims err more than without friction."""
+    names = ("contact_length", "contact_width", "contact_area")
+    return {name: COUPLED_EXTENTS * bars[name] for name in names if name in bars}
 
 
 def unknown_traction_bars(traction: RollingTraction | None) -> dict[str, Floats]:

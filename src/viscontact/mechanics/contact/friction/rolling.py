@@ -56,6 +56,8 @@ class RollingProblem:
     axis: int  # of the motion, towards +
     convolution: PairFilter  # T [m/Pa]
     preconditioner: PairFilter  # approximate inverse of T
+    #: Slip over the way of a cell by the pressure of coupled bodies [m], (2, nx, ny).
+    stretch: Floats | None = None
 
     @cached_property
     def reference(self) -> Floats:
@@ -81,8 +83,9 @@ class RollingProblem:
         return self.difference(traction) + self.entering(traction)
 
     def drift(self, creepage: float) -> Floats:
-        """Slip over the way of a cell of a body without tractions [m], (2, 1, 1)."""
-        return np.asarray(creepage * self.way * np.eye(2)[self.axis][:, None, None])
+        """Slip over the way of a cell of a body without tractions [m], (2, 1, 1) or of cells."""
+        found = np.asarray(creepage * self.way * np.eye(2)[self.axis][:, None, None])
+        return found if self.stretch is None else found + self.stretch
 
     def summed(self, field: Floats, sticks: Bools) -> Floats:
         """Sums over sticking cells, from the next cell ahead that does not stick on."""
@@ -159,7 +162,10 @@ def _search(
     problem: RollingProblem, creepage: float, start: Floats, tolerance: float
 ) -> RollingSolution:
     """Newton's method from one guess."""
-    drift, creep = problem.drift(creepage), abs(creepage) * problem.way
+    drift = problem.drift(creepage)
+    creep = abs(creepage) * problem.way
+    if problem.stretch is not None:
+        creep = float(lengths(drift).max())
     traction = start * problem.in_contact
     found = _judge(problem, traction, problem.change(traction) + drift, creep)
     steps, convolutions = 0, 1

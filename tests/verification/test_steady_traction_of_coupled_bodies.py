@@ -1,0 +1,121 @@
+"""Steady traction of dissimilar bodies, pressure and tractions together under one creepage."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from closeness import close_to
+from verification.test_rolling_with_traction import (
+    ALUMINIUM,
+    BENTALL,
+    DISSIMILAR_FORCE,
+    DISSIMILAR_RADIUS,
+    HELD,
+    IRON,
+    RADIUS,
+    bufler,
+    dissimilar,
+)
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+def rolled(
+    cells: int, friction: float, creepage: Any, *, exchanged: bool = False, errors: bool = False
+) -> xr.Dataset:
+    """A long roller in steady motion at 1 m/s."""
+    cell, count = 0.2 / cells, cells + 16 + cells % 2
+    plane, roller = (ALUMINIUM, IRON) if exchanged else (IRON, ALUMINIUM)
+    return vc.steady(
+        *(vc.Paraboloid(math.inf, DISSIMILAR_RADIUS), plane, vc.step(DISSIMILAR_FORCE, **HELD)),
+        1.0,
+        grid=vc.Grid((1, count), (1.0, count * cell), (True, False)),
+        indenter_material=roller,
+        rolling=True,
+        friction=friction,
+        creepage=creepage,
+        errors=errors,
+    ).squeeze()
+
+
+def test_bodies_that_stick_roll_freely_at_the_creepage_of_bufler():
+    """The force at it falls with the square of the cells, and the contact is as narrow as his."""
+    exact, half = bufler()
+    found = [rolled(cells, 10.0, exact) for cells in (10, 20, 40)]
+    forces = [abs(float(each.tangential_force_y)) / DISSIMILAR_FORCE for each in found]
+    assert forces[2] < 1e-4
+    assert all(second < first / 3 for first, second in itertools.pairwise(forces))
+    for each in found:
+        assert each.slip_fraction == 0
+        assert abs(each.resistance_y) < 1e-6 * DISSIMILAR_FORCE
+    assert found[-1].contact_width / 2 == close_to(half, rel=1e-4)
+
+
+@pytest.mark.parametrize("part", BENTALL)
+def test_dissimilar_rollers_have_the_forces_of_contact(part: float):
+    """Under the creepages that CONTACT prints for a force; Bentall and Johnson 1967."""
+    creepage, peak, sticking = BENTALL[part]
+    found = rolled(40, 0.05, creepage)
+    carried = 0.05 * DISSIMILAR_FORCE
+    assert found.tangential_force_y / carried == close_to(part, abs=4e-3)
+    assert found.peak_pressure == close_to(peak, rel=1e-3)
+    if sticking is not None:
+        assert 1 - found.slip_fraction == close_to(sticking / 200, abs=0.01)
+
+
+def test_steady_motion_is_the_end_of_a_run_over_time():
+    march = dissimilar(12, 10.0, 0.05, creepage=2.5e-4)
+    found = rolled(12, 0.05, 2.5e-4)
+    assert found.tangential_force_y == close_to(march.tangential_force_y, rel=1e-3)
+    assert found.friction_power == close_to(march.friction_power, rel=5e-3)
+    assert found.peak_pressure == close_to(march.peak_pressure, rel=1e-5)
+    assert found.slip_fraction == march.slip_fraction
+
+
+def test_work_of_drive_and_resistance_is_heat_of_friction():
+    """Nothing is lost in elastic bodies; in two dimensions and in three."""
+    line = rolled(40, 0.05, 2.108e-4)
+    cell, force = 1e-3 / 8, 4e-9 / (3 * RADIUS * (0.7 / 2e6 + 0.8 / 10e6))
+    ball = vc.steady(
+        *(vc.Paraboloid(RADIUS, RADIUS), vc.Material(vc.Elastic(1e6), 0.3)),
+        *(vc.step(force, **HELD), 1.0),
+        grid=vc.Grid((24, 24), (24 * cell, 24 * cell)),
+        indenter_material=vc.Material(vc.Elastic(5e6), 0.2),
+        rolling=True,
+        friction=0.2,
+        creepage=0.01,
+        errors=False,
+    ).squeeze()
+    for found, creepage in ((line, 2.108e-4), (ball, 0.01)):
+        put_in = found.resistance_y - found.tangential_force_y * creepage
+        assert found.friction_power == close_to(float(put_in), rel=1.5e-2)
+        assert found.dissipation == 0
+
+
+def test_exchanged_bodies_are_driven_the_other_way():
+    one, other = rolled(20, 0.05, 2e-4), rolled(20, 0.05, -2e-4, exchanged=True)
+    assert one.tangential_force_y == close_to(-float(other.tangential_force_y), rel=1e-6)
+    assert one.peak_pressure == close_to(float(other.peak_pressure), rel=1e-6)
+    assert one.resistance_y == close_to(float(other.resistance_y), rel=1e-6)
+
+
+@pytest.mark.parametrize("creepage", [4.294e-4, 2e-4])
+def test_error_bars_hold_where_the_force_passes_through_zero(creepage: float):
+    found, fine = rolled(24, 0.05, creepage, errors=True), rolled(120, 0.05, creepage)
+    for name in ("tangential_force_y", "friction_power", "slip_fraction", "peak_pressure"):
+        assert abs(found[name] - fine[name]) < found[f"{name}_error"]
+
+
+def test_what_is_not_supported_is_refused_by_name():
+    with pytest.raises(ValueError, match=r"^creepage: .* got 2 creepages; give one"):
+        rolled(10, 0.05, [1e-4, 2e-4])
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3)
+    given = vc.Paraboloid(0.01, 0.01), rubber, vc.step(1.0, **HELD), 1.0
+    with pytest.raises(ValueError, match=r"coupled, which is not supported in steady motion of"):
+        vc.steady(*given, friction=0.3, creepage=0.01)
