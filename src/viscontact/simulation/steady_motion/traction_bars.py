@@ -65,15 +65,16 @@ def _coupled_floors(
     problem: SteadyProblem, fine: Measured, along: float, square: float
 ) -> dict[str, float]:
     """Least bars of coupled bodies, of a contact as long as `along` [m]."""
-    friction, axis = problem.contact.friction, problem.axis
+    friction, axis, speed = problem.contact.friction, problem.axis, fine.state.speed
     assert friction is not None  # of a problem with creepages
+    assert speed is not None  # in motion
     carried = friction.coefficient * fine.state.force
     force, curvature = COUPLED_FORCE / square * carried, problem.contact.indenter.curvatures[axis]
     slip = friction.coefficient * along / 2 * curvature  # the creepage at which a body slides
     return {
         f"tangential_force_{'xy'[axis]}": force,
         "drive_torque": force / curvature if curvature > 0 else 0.0,
-        "friction_power": COUPLED_POWER / square * carried * slip * fine.state.speed,
+        "friction_power": COUPLED_POWER / square * carried * slip * speed,
     }
 
 
