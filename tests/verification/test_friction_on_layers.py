@@ -247,3 +247,27 @@ def test_a_roll_on_a_thin_cover_pulls_as_one_on_springs():
         off.append(-state.tangential_force_y / pull - 1)
     assert abs(off[1]) < abs(off[0])
     assert abs(off[1]) < 0.06
+
+
+def test_a_thin_layer_that_is_nearly_incompressible_is_solved_though_it_all_but_sticks():
+    """A strip of 12 thicknesses: objectives that differed by rounding stopped the search."""
+    rubber = vc.Material(vc.Zener(1e6, 210088.2486652766, 1e6), 0.499)
+    depth, way = 2.144079979745002e-05, 3.9122400521546935e-07
+    states = list(
+        vc.march(
+            vc.Paraboloid(math.inf, 0.02),
+            on_rigid(8.699818325364751e-05, law=rubber),
+            vc.ApproachHistory(
+                [0, 1, 3], [0, depth, 1.452366253855711e-05], tilt_x=0.0, tilt_y=0.0
+            ),
+            vc.Grid((1, 43), (1e-3, 4.389016911516233e-3), (True, False)),
+            np.linspace(0, 3, 25),
+            friction=0.9,
+            tangential=vc.TangentialHistory([0, 1, 2, 3], displacement_y=[0, 0, -way, way]),
+        )
+    )
+    assert max(state.duality_gap for state in states) < 1e-6
+    assert states[-1].slip_fraction == 0
+    # A strip that sticks is drawn by the motion of the body: against it first, then along it.
+    forces = [state.tangential_force_y for state in states]
+    assert forces[16] < 0 < forces[24]

@@ -30,8 +30,9 @@ PARTS = (1.0, 0.3, 0.09)
 #: Part that is taken where none does, in turn: so the slip set does not go around in circles.
 FALLBACKS = (1.0, 0.3)
 
-#: Relative difference of objectives that is rounding.
-ROUNDING = 1e-11
+#: Relative difference of objectives that is rounding, of displacements in single precision: taken
+#: for a rise, half of the good steps were shortened, and some searches went around in circles.
+ROUNDING = 1e-7
 
 #: Residual from which on the next Newton step may meet the tolerance, and is judged in double
 #: precision at once; and tolerance that single precision is too coarse for.
