@@ -53,7 +53,7 @@ def test_a_half_is_displaced_as_the_whole_block(grid, axis, even, library):
     halved = halved_shear_convolution(
         tables, grid.periodic, axis, even=even, transforms=transforms
     ).sum_of(1.0, 0.7)
-    np.testing.assert_allclose(halved.apply(half), expected, atol=1e-13)
+    np.testing.assert_allclose(halved.apply(half), expected, rtol=1e-12, atol=1e-13)
 
 
 @pytest.mark.parametrize("even", [True, False])
@@ -87,3 +87,16 @@ def test_pressure_and_mirrored_tractions_act_on_each_other_as_on_the_whole_block
     np.testing.assert_allclose(halved.normal(traction), normal, atol=1e-13)
     smaller = halved.within(tuple(shape))
     np.testing.assert_allclose(smaller.normal(traction), normal, atol=1e-13)
+
+
+def test_a_multiple_of_tractions_moves_the_surface_by_that_multiple():
+    """To double precision; in single precision, displacements would jump with the largest one."""
+    halved = halved_shear_convolution(shear_tables(GRID), (False, False), 1, even=True)
+    operator = halved.sum_of(1.0, 0.4)
+    given = np.random.default_rng(1).standard_normal((2, *operator.shape))
+    moved = operator.apply(given)
+    for factor in (1 / 3, 1 + 1e-7, 0.7e5):
+        found = operator.apply(factor * given)
+        np.testing.assert_allclose(
+            found, factor * moved, rtol=0, atol=1e-14 * factor * abs(moved).max()
+        )

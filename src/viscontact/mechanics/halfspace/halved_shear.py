@@ -73,7 +73,8 @@ class HalvedShearFilter(PairFilter):
         padded = self._kept((2, *self._lengths), self._number)
         lines = padded[(slice(None), *part_along(other, slice((nx, ny)[other])))]
         cells = lines[:, :nx, :ny]
-        np.multiply(fields, self._signs / np.float32(size), out=cells, casting="same_kind")
+        np.divide(fields, size, out=cells, casting="same_kind")
+        cells *= self._signs
         lines[(slice(None), *part_along(axis, slice((nx, ny)[axis], None)))] = 0
         keep(lines, transforms.cosine_forward(lines, 1 + axis))
         padded[(slice(None), *part_along(other, slice((nx, ny)[other], None)))] = 0

@@ -31,7 +31,7 @@ PARTS = (1.0, 0.3, 0.09)
 FALLBACKS = (1.0, 0.3)
 
 #: Relative difference of objectives that is rounding, of displacements in single precision: taken
-#: for a rise, half of the good steps were shortened, and some searches went around in circles.
+#: for a rise, good steps were shortened, and some searches went around in circles.
 ROUNDING = 1e-7
 
 #: Residual from which on the next Newton step may meet the tolerance, and is judged in double
