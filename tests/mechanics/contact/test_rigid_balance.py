@@ -59,7 +59,7 @@ def test_counted_cells_have_the_moments_of_whole_numbers(columns: int) -> None:
         sum(y * y for y in six_y) / 36,
     )
     scale = len(rows) * columns
-    found = plane.moments_of_rows(filled)
+    found = plane.moments_of_rows(filled, np.ones(3, bool))
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14 * scale)
 
 

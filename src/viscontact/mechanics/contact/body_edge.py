@@ -25,10 +25,13 @@ class Outline:
     along_y: Floats  # shape (nx, ny - 1)
 
 
-def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
-    """Find by bisection where an indenter's gap becomes +inf between cell centres."""
+def trace_outline(indenter: Indenter, grid: Grid, open_gap: Floats | None = None) -> Outline:
+    """Find by bisection where an indenter's gap becomes +inf between cell centres.
+
+    `open_gap` is that gap on the cells [m], if it is known.
+    """
     x, y = grid.x[:, None], grid.y[None, :]
-    inside = np.isfinite(indenter.gap(x, y))
+    inside = np.isfinite(indenter.gap(x, y) if open_gap is None else open_gap)
     x, y = np.broadcast_arrays(x, y)
     return Outline(
         _outline_crossings(indenter, inside, x, y),

@@ -194,7 +194,7 @@ class RigidPlane:
         """Pseudo-inverse of weighted sums of (1, x, y) (1, x, y)ᵀ over free coefficients."""
         # Where the cells determine only some coefficients (one cell, or a line of cells) the others
         # are of least norm about the cells' centre.
-        moments = self.each(lambda block: block.moments_of_rows(weight[block.rows]))
+        moments = self.each(lambda block: block.moments_of_rows(weight[block.rows], free))
         return self.inverse_of(moments, free)
 
     def inverse_of(self, moments: Sequence[Moments], free: Bools) -> Floats:
@@ -202,8 +202,10 @@ class RigidPlane:
         total = moments[0] if len(moments) == 1 else tuple(map(sum, zip(*moments, strict=True)))
         return _inverse(total, free) * self._units
 
-    def moments_of_rows(self, weight: Numbers) -> Moments:
-        """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; no squares if mirrored."""
+    def moments_of_rows(self, weight: Numbers, free: Bools) -> Moments:
+        """Sums of the rows' weights times 1, x, y, x², xy, y² in cells; 0 where none is needed."""
+        # Only those of free tilts are, and of axes that are not mirrored.
+        _, of_x, of_y = np.logical_and(free, [True, *np.logical_not(self._mirrored)]).tolist()
         column, row = self._column, self._row
         # Sums of up to 2^24 are exact in single precision, which takes half the time.
         is_exact = weight.dtype == bool and len(row) <= MOST_EXACT_CELLS
@@ -211,12 +213,12 @@ class RigidPlane:
         x = y = xx = xy = yy = 0.0
         along_x = np.einsum("ij->i", weight).astype(np.float64)
         n = along_x.sum()
-        if not self._mirrored[0]:
+        if of_x:
             x, xx = along_x @ column, along_x @ column**2
-        if not self._mirrored[1]:
+        if of_y:
             along_y = np.einsum("ij->j", weight).astype(np.float64)
             y, yy = along_y @ row, along_y @ row**2
-        if not any(self._mirrored):
+        if of_x and of_y:
             middle = float(row[0] + row[-1]) / 2 if is_exact else 0.0
             about = (row - middle).round(1).astype(np.float32) if is_exact else row
             along_y = np.einsum("ij,j->i", weight, about)
@@ -288,7 +290,7 @@ def balance(
     def cut(block: RigidPlane) -> tuple[Floats, Moments]:
         here = pressure[block.rows]
         np.maximum(here, 0.0, out=here)
-        return block.sums_of_rows(here), block.moments_of_rows(here)
+        return block.sums_of_rows(here), block.moments_of_rows(here, constraints.free)
 
     def scaled(block: RigidPlane) -> tuple[Floats, float]:
         here = pressure[block.rows]

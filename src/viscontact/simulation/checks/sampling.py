@@ -28,6 +28,9 @@ MISSED_PEAK = 0.1
 #: Sample points beyond the grid, in sizes of the grid: even near it, then geometrically spaced.
 NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
 
+#: Distance from the centre of a cell, in cells, within which a point of a map lies at it.
+AT_A_CENTRE = 1e-6
+
 #: Rings that the points beyond the grid are grouped in; a ring that cannot touch is skipped.
 RINGS = 16
 
@@ -100,6 +103,9 @@ class Sampling:
                 (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
             )
         ]
+        # Nothing is missed at a centre of the grid.
+        aside = np.logical_or(*(np.abs(each - np.rint(each)) > AT_A_CENTRE for each in places))
+        x, y, places = x[aside], y[aside], [each[aside] for each in places]
         # Unknown outside the grid, and next to the end of the body.
         seen = scipy.ndimage.map_coordinates(
             np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan

@@ -106,8 +106,9 @@ class Observer:
 
     def _set_geometry(self, run: RunSetup, time: float = 0.0) -> None:
         self._run, self._position, indenter = run, run.position_at(time), run.indenter_at(time)
-        self._outline = trace_outline(indenter, run.grid)
-        self._geometry = geometry_of(run.problem, run.gap_at(time), run.grid, indenter=indenter)
+        open_gap = run.gap_at(time)
+        self._outline = trace_outline(indenter, run.grid, open_gap)
+        self._geometry = geometry_of(run.problem, open_gap, run.grid, indenter=indenter)
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""

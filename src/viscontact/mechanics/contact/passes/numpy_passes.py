@@ -49,7 +49,11 @@ class NumPyPasses(SearchPasses):
             else:
                 np.multiply(here, 1 / unit, out=gap[rows], casting="same_kind")
             np.copyto(here, 0.0, where=~touching)
-            return largest, block.moments_of_rows(touching), block.sums_of_rows(here)
+            return (
+                largest,
+                block.moments_of_rows(touching, constraints.free),
+                block.sums_of_rows(here),
+            )
 
         largest, moments, sums = zip(*self._plane.each(opened), strict=True)
         inverse = self._plane.inverse_of(moments, constraints.free)
