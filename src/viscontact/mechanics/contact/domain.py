@@ -94,7 +94,8 @@ class ContactDomain:
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
         self._ended = EndedOperators(grid, mirrored, self._transforms, self.team)
         self._build_operators()
-        self._last = self.whole
+        self._last = self._found = self.whole
+        self._spans: tuple[slice, slice] | None = None  # of the cells that the last one is around
 
     def _build_operators(self) -> None:
         self._coefficients = self._influence_table()
@@ -175,12 +176,21 @@ class ContactDomain:
         spans = None if all(self.grid.periodic) else self.team.spans(cells)
         if spans is None:
             return self.whole
-        rows, columns = self._lines(spans[0], 0), self._lines(spans[1], 1)
+        # The contact of most steps lies in the lines of the last one.
+        if spans != self._spans or (
+            self._found is not self._last and self._found is not self.whole
+        ):
+            self._spans, self._found = spans, self._patch_over(*spans, cells.size)
+        return self._found
+
+    def _patch_over(self, row_span: slice, column_span: slice, cells: int) -> Patch:
+        """Last patch if it fits the spans of a contact, else one with room to grow, or the grid."""
+        rows, columns = self._lines(row_span, 0), self._lines(column_span, 1)
         roomy = (
             _widen(rows, self.shape[0], one_sided=self.mirrored[0]),
             _widen(columns, self.shape[1], one_sided=self.mirrored[1]),
         )
-        if _size(*roomy) > MAX_PATCH_SHARE * cells.size:
+        if _size(*roomy) > MAX_PATCH_SHARE * cells:
             return self.whole
         fits = self._last.holds(_with_border(rows), _with_border(columns))
         if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
@@ -203,7 +213,7 @@ class ContactDomain:
         """Keep the patch that another domain over the same grid had kept."""
         if span == self.kept_patch:
             return
-        rows, columns = slice(*span[:2]), slice(*span[2:])
+        rows, columns, self._spans = slice(*span[:2]), slice(*span[2:]), None
         is_whole = (rows, columns) == (self.whole.rows, self.whole.columns)
         self._last = self.whole if is_whole else self._patch(rows, columns)
 

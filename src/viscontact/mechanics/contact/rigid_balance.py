@@ -141,7 +141,7 @@ class RigidPlane:
         """Cell centres [m] and sizes (dx, dy) [m], mirrored axes, and number of threads."""
         return self._x, self._y, self._cell_size, self._mirrored, self.team.threads
 
-    @property
+    @cached_property
     def extents(self) -> Floats:
         """Largest values of 1, x and y over the cells [-, m, m]."""
         return np.array([1.0, np.abs(self._x).max(), np.abs(self._y).max()])

@@ -73,15 +73,19 @@ def shifted(fields: Floats, cells: tuple[int, int], *, periodic: tuple[bool, boo
 def _moves_evenly(drives: Sequence[float]) -> bool:
     """True if the drive moves one way, by steps of similar size."""
     steps = [late - early for early, late in itertools.pairwise(drives)]
-    if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
+    if min(steps) < 0:
+        steps = [-step for step in steps]
+    if min(steps) <= 0:
         return False
-    sizes = [abs(step) for step in steps]
-    least = max(1e-9 * max(map(abs, drives)), max(sizes) / MAX_STEP_RATIO)
-    return min(sizes) > least
+    least = max(1e-9 * max(map(abs, drives)), max(steps) / MAX_STEP_RATIO)
+    return min(steps) > least
 
 
 def lagrange_weights(nodes: Sequence[float], at: float) -> list[float]:
     """Weights of the values at distinct nodes in their polynomial's value at a point."""
+    if len(nodes) == 2:  # as below, at every step
+        (first, second), span = nodes, nodes[0] - nodes[1]
+        return [(at - second) / span, (at - first) / -span]
     return [
         math.prod((at - other) / (node - other) for other in nodes if other != node)
         for node in nodes

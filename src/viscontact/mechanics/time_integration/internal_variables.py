@@ -9,7 +9,7 @@ of any length:
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -151,7 +151,7 @@ class InternalVariables(HereditaryIntegral):
     def _response(self) -> HereditaryResponse:
         """Response to the step whose weights are set."""
         step, shape = self._next, self._shape
-        compliance = self._compliance.instant + float(step.new.sum())
+        compliance = self._compliance.instant + step.sum_new
         weights: tuple[float, ...] = (float(step.old.sum()), *step.decay.tolist())
         fields: tuple[Floats, ...] = (self._value, *self._fields)
         if self._trend is not None and not shape.is_level:
@@ -169,6 +169,11 @@ class RampWeights:
     new: Floats  # weight of the value at its end [1/Pa]
     trend: Floats  # weight of the trend's mean [1/Pa]
     resolved: bool = True  # the step is short against the law
+
+    @cached_property
+    def sum_new(self) -> float:
+        """Weight of the value at the end of the step in all terms [1/Pa]."""
+        return float(self.new.sum())
 
 
 def _jump(compliance: SeriesCompliance) -> RampWeights:

@@ -227,7 +227,7 @@ class TimeErrors:
         )
         self._term_errors += step.old * self._pressure_error
         # Solve J * dq = -e for the pressure error at the end of the step.
-        compliance = self._compliance.instant + float(step.new.sum())
+        compliance = self._compliance.instant + step.sum_new
         self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
         self._term_errors += step.new * self._pressure_error
 

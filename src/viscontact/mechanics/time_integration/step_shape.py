@@ -96,9 +96,10 @@ def step_shape(
 ) -> StepShape:
     """Shape of a step of a duration [s] for a law and `others`, continued from a recent trend."""
     laws = ((compliance, duration), *others)
-    rise = min(
-        longest_smooth_rise(law, own, after_jump=after_jump) * (duration / own) for law, own in laws
-    )
+    rise = longest_smooth_rise(compliance, duration, after_jump=after_jump)
+    for law, own in others:
+        other = longest_smooth_rise(law, own, after_jump=after_jump)
+        rise = min(rise, other * (duration / own))
     # Without instantaneous compliance the rise damps errors too little for a trend.
     if trend is None or any(law.instant == 0 for law, _ in laws):
         return StepShape(duration, rise)
