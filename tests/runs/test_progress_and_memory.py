@@ -55,10 +55,25 @@ def test_duration_of_a_convolution_on_a_large_grid_goes_with_its_cells(
 ) -> None:
     """On a clock that shows a second for whatever is timed."""
     ticks = count()
-    monkeypatch.setattr(forecast, "clock", SimpleNamespace(perf_counter=lambda: next(ticks)))
+    # In a minute in which nothing has been timed yet.
+    shown = SimpleNamespace(perf_counter=lambda: next(ticks), monotonic=lambda: -1e9)
+    monkeypatch.setattr(forecast, "clock", shown)
     cells = [(512, 512), (1024, 1024), (2048, 1024)]
     found = [forecast.convolution_time(Grid(shape, (1.0, 1.0))) for shape in cells]
     assert found == close_to([1.0, 4.0, 8.0])
+
+
+def test_a_convolution_is_timed_once_a_minute(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a clock that shows a second more for each that is timed."""
+    ticks, now = count(), [-2e9]
+    durations = (next(ticks) ** 2 for _ in count())
+    shown = SimpleNamespace(perf_counter=lambda: next(durations), monotonic=lambda: now[0])
+    monkeypatch.setattr(forecast, "clock", shown)
+    grid = Grid((64, 64), (1.0, 1.0))
+    first = forecast.convolution_time(grid)
+    assert forecast.convolution_time(grid) == first
+    now[0] += 120.0
+    assert forecast.convolution_time(grid) > first
 
 
 def test_body_that_ends_a_little_beyond_the_grid_is_drawn_with_its_end() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
+from functools import lru_cache
 
 import numpy as np
 
@@ -35,6 +36,8 @@ ADHESIVE_STEPS, JUMPING_STEPS, ADHESIVE_STEP, ADHESIVE_OVERHEAD = 60.0, 120.0, 1
 
 #: Cells up to which a convolution is timed; for larger grids the time is extrapolated.
 _TIMED_CELLS = 2**18
+#: Time after which a convolution is timed again [s].
+_MEASURED_AGAIN = 60.0
 
 
 @dataclass(frozen=True)
@@ -135,9 +138,14 @@ def _further_steps(law: CohesiveLaw, problem: Problem) -> float:
 
 def convolution_time(grid: Grid) -> float:
     """Duration of a plain zero-padded convolution [s], the unit of work of a run."""
-    cells = grid.shape[0] * grid.shape[1]
-    shrink = max(1.0, math.sqrt(cells / _TIMED_CELLS))
-    shape = [fast_length(max(4, int(2 * n / shrink))) for n in grid.shape]
+    return _convolution_time(grid.shape, int(clock.monotonic() / _MEASURED_AGAIN))
+
+
+@lru_cache(maxsize=64)
+def _convolution_time(cells: tuple[int, int], period: int) -> float:
+    # Once in a while: a process has many runs on one grid, and the load of the machine changes.
+    shrink = max(1.0, math.sqrt(cells[0] * cells[1] / _TIMED_CELLS))
+    shape = [fast_length(max(4, int(2 * n / shrink))) for n in cells]
     field = np.ones(shape)
     np.fft.rfft2(field)  # plans and pages
     started = clock.perf_counter()

@@ -211,6 +211,33 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
     assert same_bits(recorded.directory, whole)
 
 
+@pytest.mark.parametrize("instants", [1, 7, COUNT])
+def test_short_run_of_a_batch_is_repeated_to_the_same_bits(
+    instants: int, recorded: Recorded, whole: Path
+) -> None:
+    stop_after(Recorder(recorded, pause=1e9), instants)
+    assert (recorded.directory / STATE_NAME).exists()
+    record = Recorder.resume(recorded)
+    assert record.resumed.rows == 0
+    finish(record)
+    assert same_bits(recorded.directory, whole)
+    assert sorted(contents(recorded.directory)) == [PROGRESS_NAME, "result.nc"]
+
+
+def test_run_of_a_batch_saves_its_steps_after_a_pause(
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now, saved = [0.0], []
+    monkeypatch.setattr("viscontact.runs.directory.recorder.clock.monotonic", lambda: now[0])
+    record = Recorder(recorded, pause=5.0)
+    for _ in record.steps():
+        saved.append(record.saved.rows)
+        now[0] += 1.0
+    assert saved[:6] == [0, 0, 0, 0, 0, 6]
+    record.finish()
+    assert same_bits(recorded.directory, whole)
+
+
 def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(
     recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -26,6 +26,8 @@ _LOG = logging.getLogger("viscontact")
 
 #: Least time between two checkpoints: in seconds, and as a multiple of what the last one took.
 PAUSE, SHARE = 1.0, 20.0
+#: Time before the first checkpoint of a run of a batch, which is repeated rather than resumed [s].
+BATCH_PAUSE = 1.0
 
 #: Context within which no signal interrupts what has to be written together.
 Undisturbed = Callable[[], AbstractContextManager[object]]
@@ -46,8 +48,9 @@ class Recorder:
     """
 
     # A checkpoint publishes the result and saves the restart state of the march. It comes after the
-    # first step, then once a second or less often, so that checkpoints take at most a twentieth of
-    # the time. The march is deterministic, so that a resumed run computes the same bits again.
+    # first step, or in a batch, whose runs are short, after a pause; then once a second or less
+    # often, so that checkpoints take at most a twentieth of the time. The march is deterministic:
+    # a resumed run computes the same bits again.
 
     saved: Reached  # at the last checkpoint, from which `resume` continues
     shown: Reached  # in the published result
@@ -59,8 +62,10 @@ class Recorder:
         recorded: Recorded,
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
+        pause: float = 0.0,
     ) -> None:
         self._set_up(recorded, recorded.run.states(), on_begin, undisturbed)
+        self._pause = pause  # before the first checkpoint [s]
         self._writer = recorded.new_writer()
 
     @classmethod
@@ -101,7 +106,7 @@ class Recorder:
         self._recorded, self._march = recorded, march
         self._on_begin, self._undisturbed = on_begin, undisturbed
         self._lines: ProgressLog | None = None
-        self._due = 0.0
+        self._due = self._pause = 0.0
         self._rows = 0
         self._place: float | None = None
         self.saved = self.shown = self.resumed = Reached(0, None)
@@ -146,7 +151,9 @@ class Recorder:
         """Estimate the errors of the scalars after the last step; None where none are requested."""
         if not self._recorded.run.errors:
             return None
-        self.checkpoint()
+        # A run that has not had its first one takes less time to repeat than to save.
+        if not self._pause or clock.monotonic() >= self._due:
+            self.checkpoint()
         with self._undisturbed():
             history = self._writer.history()
         writer, march = self._writer, self._march
@@ -232,6 +239,8 @@ class Recorder:
             self._recorded.check()
             self._on_begin()
         self._lines = self._recorded.new_log()
+        if self._pause:
+            self._due = clock.monotonic() + self._pause
 
     def _save(self, *, begun: bool = True) -> None:
         recorded = self._recorded

@@ -36,6 +36,7 @@ class Monitor:
     say: Callable[[str], None]
     #: Called with the number of rows, None if the run chooses its steps, and the finished ones.
     progress: Callable[[int | None, int], AbstractContextManager[Progress]]
+    pause: float = 0.0  # before the first checkpoint of a run [s]
 
 
 def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
@@ -81,7 +82,9 @@ def _new_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
         monitor.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
     write = partial(write_case, recorded.directory, checked.prepared.case)
     try:
-        return _opened_record(postponed, partial(Recorder, recorded, write, postponed))
+        return _opened_record(
+            postponed, partial(Recorder, recorded, write, postponed, monitor.pause)
+        )
     except OSError as error:
         refuse(f"{recorded.directory}: cannot be written: {error}")
 

@@ -24,7 +24,7 @@ from viscontact.runs.directory.earlier_result import stored_run
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded import Recorded, remove_restart_files
-from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.directory.recorder import BATCH_PAUSE, Recorder
 from viscontact.runs.execution.run_directory import refuse_no_directory, reserved
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.over_time import OverTime
@@ -149,7 +149,7 @@ def _open_recorder(recorded: Recorded, check: LockCheck) -> Recorder:
     try:
         return Recorder.resume(held)
     except FileNotFoundError:
-        return Recorder(held)
+        return Recorder(held, pause=BATCH_PAUSE)
 
 
 def _march(recorded: Recorded, record: Recorder, stops: StopRequests) -> TaskEnd:

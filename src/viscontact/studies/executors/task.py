@@ -17,6 +17,7 @@ from viscontact.results.run_files import ATTEMPT_NAME
 from viscontact.runs.command_error import CommandError
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.directory.recorder import BATCH_PAUSE
 from viscontact.runs.execution.case_digests import Digests, changed_parts
 from viscontact.runs.execution.checked_run import CheckedRun, checked_run
 from viscontact.runs.execution.execution import Monitor, execute_checked
@@ -153,7 +154,7 @@ def _compute(request: RunRequest, directory: Path, stops: StopRequests) -> TaskE
         with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
             if checked.recorded.run.seconds <= LONGEST_WARM:
-                execute_checked(checked, Monitor(stops, _ignore, _no_progress))
+                execute_checked(checked, Monitor(stops, _ignore, _no_progress, pause=BATCH_PAUSE))
                 return TaskEnd("done", DONE)
         return _in_process(checked, stops)
     except CommandError as end:
