@@ -149,7 +149,8 @@ def test_a_fit_to_a_record_imports_no_library_of_datasets(tmp_path: Path) -> Non
 def test_a_check_imports_nothing_that_it_does_without() -> None:
     check = COMMAND.format(words=["check", str(EXAMPLES / "sphere-zener.yaml")])
     libraries = (*OF_DATASETS, *COMPUTES, *OF_HELP, *OF_SYSTEMS, "netCDF4", "scipy.linalg")
-    unwanted = (*libraries, *OF_OTHER_RUNS, *OF_RUNS)
+    rest = ("rich", "tomllib")
+    unwanted = (*libraries, *rest, *OF_OTHER_RUNS, *OF_RUNS)
     assert imported(check, unwanted) == ""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections import Counter
 from typing import Any
 
@@ -28,6 +27,8 @@ def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
             f"a key of more than {_MOST_PARTS} parts does not occur in case files",
             text.count("\n", 0, endless.start()) + 1,
         )
+    import tomllib  # few cases are written so
+
     try:
         data = tomllib.loads(text)
     except ValueError as error:  # TOMLDecodeError is one, and a whole number of 5000 digits another

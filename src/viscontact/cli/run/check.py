@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from rich.table import Table
-
 from viscontact.case import CaseError
-from viscontact.cli.terminal.console import TextConsole
 from viscontact.cli.terminal.messages import put, refuse
+from viscontact.cli.terminal.plain_report import PlainReport
 from viscontact.runs.check_report import (
     expectations,
     needs,
@@ -26,24 +24,15 @@ def print_forecast(prepared: PreparedRun) -> Forecast:
         expected = predicted(prepared)
     except CaseError as error:
         refuse(*error.problems)
-    console = TextConsole()
+    report = PlainReport()
     put(verdict(prepared, expected))
     for line in warnings_of(prepared, expected):
-        console.warn(line)
+        report.warn(line)
     for line in prepared.case.notes:
         put(f"note: {line}")
-    console.print(_rows_table(needs(prepared, expected)))
+    report.rows(needs(prepared, expected), _NAMES)
     title, rows = expectations(prepared, expected)
     if rows:
-        console.print(title, soft_wrap=True)
-        console.print(_rows_table(rows))
+        report.text(title)
+        report.rows(rows, _NAMES)
     return expected
-
-
-def _rows_table(rows: list[tuple[str, str]]) -> Table:
-    table = Table(show_header=False, box=None, padding=(0, 0, 0, 2))
-    table.add_column(min_width=_NAMES)
-    table.add_column()
-    for row in rows:
-        table.add_row(*row)
-    return table
