@@ -30,7 +30,7 @@ from viscontact.mechanics.halfspace.free_end import (
     end_functions,
     pivoted_cholesky,
 )
-from viscontact.mechanics.halfspace.moving_load import MovingCompliance
+from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
 
 #: Gauss nodes in each panel of wave numbers, which end at powers of two; the first panel begins at
 #: this part of the inverse of the block's extent.
@@ -67,18 +67,43 @@ class EndBasis:
 
     def coefficients(self, cells: int, edge: float) -> Floats:
         """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
+        return self.at(np.arange(cells, dtype=np.float64) * edge, edge)
+
+    def at(self, places: Floats, edge: float) -> Floats:
+        """Coefficients at offsets along y from cells of an edge [m]; (places, rank, rank)."""
         # The mean of cos(k y) over a cell is a difference of sin(k y)/k at its edges.
-        edges = (np.arange(cells + 1, dtype=np.float64) - 0.5) * edge
+        edges, of_places = np.unique(
+            np.concatenate([places - edge / 2, places + edge / 2]), return_inverse=True
+        )
         waves = panel_nodes(self.borders, NODES)[0]
         sines = oscillation_weights(self.borders, NODES, edges).imag / waves
-        before = np.full(cells, self.borders[0] * edge)
-        weights = np.column_stack([before, np.diff(sines, axis=0)])
+        begin, end = np.split(of_places, 2)
+        before = np.full(len(places), self.borders[0] * edge)
+        weights = np.column_stack([before, sines[end] - sines[begin]])
         return np.tensordot(weights / np.pi, self.products, axes=1)
 
     def moving_coefficients(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
         """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
+        passing, returning = compliance.split()
+        found = self._passing(cells, edge, passing)
+        if returning.lengths.size:
+            found = found + self._returning(cells, edge, returning)
+        return found
+
+    def _passing(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
+        """The same of material that passes once."""
         weights = self._moving_weights(cells, edge, compliance, 0.0)
         return np.asarray(np.tensordot(weights, self.products, axes=1))
+
+    def _returning(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
+        """The same of material that returns after periods, of compliance that is delayed only."""
+        rank = self.products.shape[1]
+
+        def pairs(along: Floats, across: Floats, cell: tuple[float, float]) -> Floats:
+            return self.at(along[:, 0], cell[0]).reshape(len(along), across.size)
+
+        table = moving_influence_table((cells, rank**2), (edge, 1.0), compliance, 0, pairs)
+        return table.reshape(-1, rank, rank)
 
     def _moving_weights(
         self, cells: int, edge: float, compliance: MovingCompliance, less: float

@@ -152,7 +152,11 @@ def _rows(
     begin = max(before or 0, 0)
     end = shape[0] if after is None else min(after, shape[0])
     width = shape[1] * cell_size[1]
-    longest = 0.0 if moving is None else float(moving.lengths.max(initial=0.0))
+    longest = 0.0
+    if moving is not None:
+        # Of material that returns, up to half of its way.
+        reach = np.where(np.isinf(moving.periods), moving.lengths, moving.periods / 2)
+        longest = float(reach.max(initial=0.0))
     shared = (cell_size, width, longest)
     bases = _bases_of_ends(response, range(begin, end), borders, *shared)
     if moving is None:

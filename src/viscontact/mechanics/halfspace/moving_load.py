@@ -82,6 +82,20 @@ class MovingCompliance:
         chosen = self.periods == period
         return self.amplitudes[chosen], self.lengths[chosen]
 
+    def split(self) -> tuple[MovingCompliance, MovingCompliance]:
+        """Compliance of material that passes once, with J0, and modes of material that returns."""
+        once = np.isinf(self.periods)
+        passing, returning = (
+            replace(
+                self,
+                amplitudes=self.amplitudes[chosen],
+                lengths=self.lengths[chosen],
+                periods=self.periods[chosen],
+            )
+            for chosen in (once, ~once)
+        )
+        return passing, replace(returning, instant=0.0, drift=0.0)
+
     @property
     def relaxed(self) -> float:
         """Compliance at rest, J0 + Σ Ji [1/Pa]."""

@@ -68,28 +68,28 @@ class StripBasis(EndBasis):
     half_length: float  # W [m]
     datum: float  # D [m]
 
-    def coefficients(self, cells: int, edge: float) -> Floats:
-        """Coefficients of pairs of basis functions at offsets of 0, 1, ... cells along y [m]."""
-        regular = super().coefficients(cells, edge)
-        return np.asarray(regular - np.multiply.outer(self._limit_means(cells, edge), self.limit))
+    def at(self, places: Floats, edge: float) -> Floats:
+        """Coefficients at offsets along y from cells of an edge [m]; (places, rank, rank)."""
+        limit = np.multiply.outer(self._limit_means(places, edge), self.limit)
+        return np.asarray(super().at(places, edge) - limit)
 
-    def _limit_means(self, cells: int, edge: float) -> Floats:
-        """Integrals of ln((y² + W²)/D²)/2π over cells at offsets of 0, 1, ... [m]."""
-        edges = (np.arange(cells + 1, dtype=np.float64) - 0.5) * edge
-        along, half = edges / self.half_length, self.half_length
+    def _limit_means(self, places: Floats, edge: float) -> Floats:
+        """Integrals of ln((y² + W²)/D²)/2π over cells at offsets [m]."""
+        edges, half = np.stack([places - edge / 2, places + edge / 2]), self.half_length
+        along = edges / half
         # ∫ ln((y² + W²)/D²) dy / W over y/W.
         integral = along * (np.log((edges**2 + half**2) / self.datum**2) - 2)
-        return np.asarray(half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along)))
+        return np.asarray(half / (2 * np.pi) * np.diff(integral + 2 * np.arctan(along), axis=0)[0])
 
-    def moving_coefficients(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
-        """Coefficients under a load that moves along y, at offsets of 1 - cells to cells - 1."""
+    def _passing(self, cells: int, edge: float, compliance: MovingCompliance) -> Floats:
+        """Coefficients under a load that moves along y over material that passes once."""
         waves = panel_nodes(self.borders, NODES)[0]
         # The delay of a wave falls with its number, so that its part has a limit of its own.
         part = np.append(0.0, np.exp(-waves * self.half_length) / waves)
         delayed = self._moving_weights(cells, edge, compliance, compliance.relaxed) @ part
-        means = self._limit_means(cells, edge)
+        means = self._limit_means(np.arange(cells, dtype=np.float64) * edge, edge)
         limit = delayed - compliance.relaxed * np.append(means[:0:-1], means)
-        regular = super().moving_coefficients(cells, edge, compliance)
+        regular = super()._passing(cells, edge, compliance)
         return np.asarray(regular + np.multiply.outer(limit, self.limit))
 
 

@@ -106,8 +106,9 @@ def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
     for name, body in problem.ended_bodies.items():
         if any(grid.periodic):
             raise ValueError(
-                f"grid.periodic: must be false for a body that ends ({name}.ends); use a grid "
-                "that is not periodic"
+                f"grid.periodic: must be false for a body that ends ({name}.ends): it has no "
+                "period along x, and what its ends add to a contact that goes on along y is not "
+                "available; give a grid that is not periodic, and a contact of finite width along y"
             )
         for plane in body.planes:
             if plane is None or is_border(grid, plane):

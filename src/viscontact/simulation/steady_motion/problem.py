@@ -146,12 +146,6 @@ def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
             "differ; give rolling=True if it rolls (its material flows through the contact), "
             "rolling=False if it slides"
         )
-    if rolling and "indenter_material" in contact.ended_bodies:
-        raise ValueError(
-            "indenter_material.ends: the material of a body that rolls returns to the contact, "
-            "which is not available for one that creeps and ends; give it without ends, or "
-            "rolling=False, or make it elastic"
-        )
     if rolling and not contact.indenter.curvatures[axis] > 0:
         raise ValueError(
             f"rolling: the indenter has no radius of curvature along {'xy'[axis]}, so it cannot "
