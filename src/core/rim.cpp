@@ -135,16 +135,20 @@ std::vector<Interval> changes(const Field<Flag> &contact, const Mirrored &mirror
     return found;
 }
 
-// Crossings of the lines with the rim, in memory that is kept: there are few beside the contact's
-// cells, and all others stay not a number.
+// Numbers of crossings up to which their memory is kept: 16 MB.
+constexpr std::ptrdiff_t MOST_KEPT = 1 << 21;
+
+// Crossings of the lines with the rim. There are few beside the contact's cells; all others stay not
+// a number in memory that is kept.
 class Crossings {
   public:
     Crossings(const Field<Flag> &contact, const Mirrored &mirrored) : mirrored_(mirrored) {
         thread_local std::vector<double> kept;
-        const std::ptrdiff_t nx = contact.rows, ny = contact.columns;
-        if (kept.size() < static_cast<std::size_t>(2 * nx * ny)) kept.assign(2 * nx * ny, NONE);
-        rim.along_x = {kept.data(), nx - 1, ny, ny};
-        rim.along_y = {kept.data() + nx * ny, nx, ny - 1, ny};
+        const std::ptrdiff_t nx = contact.rows, ny = contact.columns, count = 2 * nx * ny;
+        std::vector<double> &memory = count > MOST_KEPT ? own_ : kept;
+        if (static_cast<std::ptrdiff_t>(memory.size()) < count) memory.assign(count, NONE);
+        rim.along_x = {memory.data(), nx - 1, ny, ny};
+        rim.along_y = {memory.data() + nx * ny, nx, ny - 1, ny};
     }
 
     ~Crossings() {
@@ -173,6 +177,7 @@ class Crossings {
   private:
     Mirrored mirrored_;
     std::vector<double *> written_;
+    std::vector<double> own_;  // of a large block
 };
 
 }  // namespace
