@@ -84,6 +84,19 @@ def test_one_half_of_an_even_contact_tells_the_other(
     assert half.extent == whole.extent
 
 
+def test_rims_of_large_and_small_blocks_in_turn() -> None:
+    # Memory is kept between small ones only, and has to be as before after each.
+    for cells in (40, 1100, 24, 40, 1100):
+        grid = vc.Grid((cells, cells), (1.0, 1.0))
+        r = np.hypot(grid.x[:, None], 1.1 * grid.y[None, :])
+        gap, contact = np.maximum(r - 0.43, 0.0) ** 1.5, r < 0.43
+        expected, found = (
+            trace_rim(grid, contact, gap, team=team) for team in (Team(), Team(core=compiled.core))
+        )
+        assert found.area == close_to(expected.area, 1e-12)
+        assert found.length == close_to(expected.length, 1e-12)
+
+
 @given(seeds, cells, st.sampled_from([0.0, 0.05]))
 def test_trends_over_steps(seed: int, shape: tuple[int, int], error: float) -> None:
     random = np.random.default_rng(seed)
