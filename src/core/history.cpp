@@ -92,8 +92,7 @@ void add_row(Changes &found, const double *p, const double *p_before, const doub
     if (rate_before) {
 #pragma omp simd reduction(+ : changes)
         for (std::ptrdiff_t j = 0; j < columns; ++j)
-            changes +=
-                (p[j] > 0) | (p_before[j] > 0) ? std::abs(rate[j] - rate_before[j]) : 0.0;
+            changes += (p[j] > 0) | (p_before[j] > 0) ? std::abs(rate[j] - rate_before[j]) : 0.0;
     }
     found.count += static_cast<std::ptrdiff_t>(count);
     found.size += size, found.rate += rates, found.change += changes;
@@ -104,8 +103,8 @@ void add_row(Changes &found, const double *p, const double *p_before, const doub
 StepChange step_change(const Field<double> &pressure, const Field<double> &pressure_before,
                        const Field<double> &late, const Field<double> &early, double duration,
                        const Field<double> *rate_before, const Field<double> &rate, int threads) {
-    const auto total = total_of(of_blocks(
-        late.rows, late.columns, threads, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const auto total = total_of(
+        of_blocks(late.rows, late.columns, threads, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
             Changes here;
             for (std::ptrdiff_t i = begin; i < end; ++i)
                 add_row(here, pressure.row(i), pressure_before.row(i), late.row(i), early.row(i),

@@ -70,15 +70,16 @@ void define_history(nb::module_ &module) {
                    field(shape, rate), threads);
                return std::tuple(found.size, found.rate, found.change);
            });
-    define(module, "largest_mean",
-           [](nb::ndarray<const double, nb::ndim<1>, nb::device::cpu, nb::c_contig> values,
-              double window) {
-               const double *first = values.data();
-               const std::vector<double> line(first, first + values.shape(0));
-               if (!(window > 0 && window <= static_cast<double>(line.size())))
-                   throw std::invalid_argument("the window is longer than 0 and fits into the line");
-               return viscontact::largest_mean(line, window);
-           });
+    define(
+        module, "largest_mean",
+        [](nb::ndarray<const double, nb::ndim<1>, nb::device::cpu, nb::c_contig> values,
+           double window) {
+            const double *first = values.data();
+            const std::vector<double> line(first, first + values.shape(0));
+            if (!(window > 0 && window <= static_cast<double>(line.size())))
+                throw std::invalid_argument("the window is longer than 0 and fits into the line");
+            return viscontact::largest_mean(line, window);
+        });
     define(module, "follow_trends",
            [](Array<const double> gap, Array<const double> pressure, Array<const bool> in_contact,
               double error, double turns, GivenTrends before, Trends after, int threads) {

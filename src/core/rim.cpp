@@ -138,8 +138,8 @@ std::vector<Interval> changes(const Field<Flag> &contact, const Mirrored &mirror
 // Numbers of crossings up to which their memory is kept: 16 MB.
 constexpr std::ptrdiff_t MOST_KEPT = 1 << 21;
 
-// Crossings of the lines with the rim. There are few beside the contact's cells; all others stay not
-// a number in memory that is kept.
+// Crossings of the lines with the rim. There are few beside the contact's cells; all others stay
+// not a number in memory that is kept.
 class Crossings {
   public:
     Crossings(const Field<Flag> &contact, const Mirrored &mirrored) : mirrored_(mirrored) {
