@@ -121,6 +121,15 @@ def _quantities(request: CurveFitRequest) -> dict[str, float | None]:
     return found
 
 
+def curve_of_file(
+    path: Path, stiffness: float | None, sensitivity: float | None = None
+) -> ForceCurve:
+    """Force curve of a file, of an instrument or a table; spring constant [N/m], [m/V]."""
+    if is_instrument_file(path):
+        return read_force_curve(path, spring_constant=stiffness)
+    return _tabulated(read_table(path), stiffness, sensitivity)
+
+
 def _record(
     request: CurveFitRequest, folder: Path, given: dict[str, float | None]
 ) -> tuple[IndentationRecord, ContactPoint | None]:
@@ -128,7 +137,7 @@ def _record(
     indenter, path = _tip(request), uploaded_file(request.file, folder)
     stiffness = given["spring_constant"]
     if is_instrument_file(path):
-        return _from_curve(read_force_curve(path, spring_constant=stiffness), indenter)
+        return _from_curve(curve_of_file(path, stiffness), indenter)
     table = read_table(path)
     if "force" in table and "approach" in table:
         return IndentationRecord(indenter, table["time"], table["approach"], table["force"]), None

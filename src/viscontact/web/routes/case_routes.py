@@ -25,6 +25,7 @@ from viscontact.results.variables import SCALARS
 from viscontact.units.formatting import unit_ladder
 from viscontact.units.systems import AUTOMATIC, SYSTEM_NAMES, SYSTEMS
 from viscontact.web.calculator import Calculator
+from viscontact.web.cases.adhesion_fits import AdhesionFitRequest, adhesion_of_upload
 from viscontact.web.cases.case_reader import CaseReader, filled, form_values
 from viscontact.web.cases.curve_fits import CurveFitRequest, fit_of_upload
 from viscontact.web.cases.drawings import drawn_as_svg
@@ -200,6 +201,16 @@ async def fit_material(
     """Fit a law to uploaded tests of a material, at one temperature or at several."""
     width: Width | None = "single" if narrow else None
     return await calculator.about_case(request, fitted_tests, body, dark=dark, width=width)
+
+
+@router.post("/fit/adhesion")
+async def fit_adhesion(
+    body: AdhesionFitRequest, calculator: AppCalculator, request: Request,
+    dark: bool = False, narrow: bool = False,
+) -> dict[str, Any]:  # fmt: skip
+    """Fit adhesion to an uploaded force curve of a sphere."""
+    width: Width | None = "single" if narrow else None
+    return await calculator.about_case(request, adhesion_of_upload, body, dark=dark, width=width)
 
 
 @router.get("/files")

@@ -15,27 +15,28 @@ import { chosenSystem } from "./units.js";
 const LAWS = ["elastic", "maxwell", "zener", "burgers", "creep-series", "power-law", "power-law-with-instant"];
 // Size of each tip: its name and an example.
 const TIPS = { sphere: ["Radius", "5 um"], cone: ["Half angle", "70 deg"], pyramid: ["Angle from axis to face", "35 deg"], punch: ["Radius", "2 um"] };
-const KINDS = { curve: "Force curve or indentation", material: "Tests of a material" };
+const KINDS = { curve: "Force curve or indentation", adhesion: "Force curve of a sphere that sticks", material: "Tests of a material" };
 const FILES = {
   curve: "JPK curve or map (map.jpk-force-map#12 is its curve 12), or a table with time, position and deflection or force, or with time, approach and force",
+  adhesion: "approach and retraction of an elastic body: JPK curve, or a table with time, position and deflection or force",
   material: "creep, relaxation or oscillation (DMA), as a table; a column of temperatures makes sets, which are joined to a master curve",
 };
-// Of each field: label, example, description, and the kind of measurement that it belongs to.
+// Of each field: label, example, description, and the kinds of measurement that it belongs to.
 const FIELDS = {
   kind: ["Measurement", "", ""],
   file: ["File", "", FILES.curve],
   tip: ["Tip", "", "", "curve"],
-  size: ["Radius", "5 um", "", "curve"],
-  spring_constant: ["Spring constant", "0.1 N/m", "of the cantilever; files of instruments state their own", "curve"],
-  sensitivity: ["Sensitivity", "50 nm/V", "of a deflection in volts", "curve"],
+  size: ["Radius", "5 um", "", "curve adhesion"],
+  spring_constant: ["Spring constant", "0.1 N/m", "of the cantilever; files of instruments state their own", "curve adhesion"],
+  sensitivity: ["Sensitivity", "50 nm/V", "of a deflection in volts", "curve adhesion"],
   law: ["Law", "", "", "curve"],
   data: ["Kind of test", "", "", "material"],
   reference: ["Reference", "23 degC", "temperature of the master curve; that of the set nearest to 20 °C if empty", "material"],
   shift: ["Shift", "", "in the law: the factors that are found, or a rule through them", "material"],
   vertical: ["Vertical shift", "", "of the moduli", "material"],
-  terms: ["Terms", "1", "of a series; as many as the data need if empty"],
+  terms: ["Terms", "1", "of a series; as many as the data need if empty", "curve material"],
   poisson_ratio: ["Poisson's ratio", "0.5", ""],
-  bulk_modulus: ["Bulk modulus", "4 GPa", "in place of Poisson's ratio"],
+  bulk_modulus: ["Bulk modulus", "4 GPa", "in place of Poisson's ratio", "curve material"],
 };
 const CHOICES = {
   kind: KINDS, tip: named(Object.keys(TIPS)), law: named(LAWS),
@@ -43,7 +44,7 @@ const CHOICES = {
   shift: { factors: "Factors", wlf: "WLF", arrhenius: "Arrhenius" },
   vertical: { "": "as the data need", none: "None", rubber: "Rubber, T/T_r", found: "Found" },
 };
-const ADDRESS = { curve: "/api/fit", material: "/api/fit/material" };
+const ADDRESS = { curve: "/api/fit", adhesion: "/api/fit/adhesion", material: "/api/fit/material" };
 // On narrow pages the panels of a drawing are placed below each other.
 const phone = window.matchMedia("(max-width: 640px)");
 let shown = null;
@@ -55,10 +56,7 @@ export function setUpFit() {
   input("kind").addEventListener("change", () => showKind());
   input("file").addEventListener("input", () => recognise());
   showKind();
-  const size = form.querySelector('label[for="fit-size"]');
-  input("tip").addEventListener("change", () => {
-    [size.textContent, input("size").placeholder] = TIPS[input("tip").value];
-  });
+  input("tip").addEventListener("change", nameSize);
   form.addEventListener("submit", (event) => { event.preventDefault(); fit(); });
   place("fit-use").addEventListener("click", use);
   const box = place("fit");
@@ -78,7 +76,7 @@ export function fitFile(name, kind) {
 }
 
 const input = (name) => place(`fit-${name}`);
-const isOf = (name, kind) => [undefined, kind].includes(FIELDS[name][3]);
+const isOf = (name, kind) => FIELDS[name][3]?.split(" ").includes(kind) ?? true;
 function named(values) { return Object.fromEntries(values.map((value) => [value, titleOf(value)])); }
 
 // Shows the fields of a kind of measurement.
@@ -86,6 +84,14 @@ function showKind(kind = input("kind").value) {
   input("kind").value = kind;
   for (const name of Object.keys(FIELDS)) input(name).closest(".field").hidden = !isOf(name, kind);
   input("file").closest(".field").querySelector(".description").textContent = FILES[kind];
+  nameSize();
+}
+
+// The size is that of the tip, which is a sphere where its adhesion is fitted.
+function nameSize() {
+  const [label, example] = TIPS[input("kind").value === "adhesion" ? "sphere" : input("tip").value];
+  place("fit-form").querySelector('label[for="fit-size"]').textContent = label;
+  input("size").placeholder = `e.g. ${example}`;
 }
 
 // The kind of an uploaded file, by what it holds; none of a name that is being typed.
@@ -93,7 +99,9 @@ async function recognise() {
   const name = input("file").value.trim(), known = await get("/api/files").catch(() => []);
   if (!known.some((each) => each.name === name)) return;
   const { fit: kind } = await get(`/api/files/${encodeURIComponent(name)}/contents`).catch(() => ({}));
-  if (kind && input("file").value.trim() === name) showKind(kind);
+  // A curve may be one of a sphere that sticks, which its columns do not tell.
+  const fits = kind === "curve" && input("kind").value === "adhesion";
+  if (kind && !fits && input("file").value.trim() === name) showKind(kind);
 }
 
 function field(name) {
@@ -154,6 +162,7 @@ async function fit() {
 function show(found) {
   shown = found;
   place("fit-result").hidden = false;
+  place("fit-use").textContent = found.adhesion ? "Use as material and adhesion" : "Use as the material";
   place("fit-notes").replaceChildren(...found.warnings.map((text) => make("p", { class: "note warm", textContent: text })));
   const { confidence } = found.parameters[0], head = ["Parameter", "Value", ...(confidence ? [`${confidence} interval`] : [])];
   place("fit-parameters").replaceChildren(table(head, found.parameters.map(({ name, value, interval }) => [titleOf(name), value, ...(confidence ? [interval] : [])])));
@@ -186,5 +195,6 @@ function showShifts(shifts) {
 
 function use() {
   setValue(["material"], shown.material);
+  if (shown.adhesion) setValue(["adhesion"], shown.adhesion);
   changed("structure");
 }
