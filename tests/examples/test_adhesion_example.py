@@ -13,7 +13,7 @@ import viscontact as vc
 from closeness import close_to
 from viscontact.case import read_case
 from viscontact.cli import main
-from viscontact.runs import forecast
+from viscontact.runs import adhesive_forecast, forecast
 from viscontact.runs.preparation import prepared
 from viscontact.runs.solving import solve
 from viscontact.simulation.transient.stepper import Stepper
@@ -73,9 +73,9 @@ def test_forecast_counts_steps_that_the_run_takes_within_a_factor_of_two(
     assert main(["example", "pull-off", "-o", str(case)]) == 0
     given = read_case(case, ["grid.shape=[48, 48]", "output.errors=false"])
     run = prepared(given).run
-    monkeypatch.setattr(forecast, "convolution_time", lambda _: 0.0)
+    monkeypatch.setattr(forecast, "convolution_time", lambda *_: 0.0)
     marches = 2  # the first one finds the events
-    expected = run.seconds / (marches * forecast.ADHESIVE_OVERHEAD)
+    expected = run.seconds / (marches * adhesive_forecast.OVERHEAD)
     taken = 0
 
     def counted(self: Stepper, *steps: object) -> object:

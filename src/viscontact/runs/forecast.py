@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import math
 import time as clock
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fast_length
-from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.bodies.grid import Grid
 from viscontact.bodies.loads import LoadPoint, MixedHistory
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.runs.adhesive_forecast import (
+    adhesive_seconds,
+    adhesive_steps,
+    computed_shape,
+)
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.run_memory import run_memory
-from viscontact.simulation import checks
 from viscontact.simulation.accuracy.coarser_ratios import usual_coarsening
 from viscontact.simulation.meshing.contact_place import locate_contact
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, estimate_period
@@ -27,17 +31,14 @@ from viscontact.simulation.transient.setup import RunSetup
 #: the overhead of a step [s]; measured on the shipped rollers and spheres.
 FIRST_STEP, LATER_STEP, STEP_OVERHEAD = 30.0, 3.5, 3e-3
 
-#: Steps of bodies that adhere beyond the given ones, which a way into contact and off it takes, in
-#: the middle: without jumps, and what jumps add, in proportion to the Tabor number up to 1; time of
-#: each step in times of a plain convolution, and its overhead [s]; measured on spheres, elastic and
-#: creeping, and a rough surface. At large Tabor numbers of elastic bodies a step takes up to five
-#: times as long.
-ADHESIVE_STEPS, JUMPING_STEPS, ADHESIVE_STEP, ADHESIVE_OVERHEAD = 60.0, 120.0, 10.0, 4e-3
-
 #: Cells up to which a convolution is timed; for larger grids the time is extrapolated.
 _TIMED_CELLS = 2**18
 #: Time after which a convolution is timed again [s].
 _MEASURED_AGAIN = 60.0
+
+#: The same of bodies that adhere, whose steps work in memory that they keep: a larger convolution
+#: gets its memory from the system each time.
+_TIMED_ADHESIVE = 2**14
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,12 @@ def _representative_compliance(problem: Problem, time: float) -> tuple[float, st
 
 def run_seconds(run: RunSetup, *, errors: bool) -> float:
     """Run time on this machine, within a factor of two or three [s]; `errors` as in `forecast`."""
-    steps, each = run.problem.step_count, convolution_time(run.grid)
+    steps, each = run.problem.step_count, 0.0
+    if run.law is None:
+        each = convolution_time(run.grid)
+    else:
+        steps = adhesive_steps(run, run.law)
+        each = convolution_time(replace(run.grid, shape=computed_shape(run)), _TIMED_ADHESIVE)
     marches = [(steps, each)]
     if errors:
         across = min(run.grid.shape) / 2  # of a contact that fills half of its grid
@@ -115,8 +121,7 @@ def run_seconds(run: RunSetup, *, errors: bool) -> float:
         marches.append(marches[0])  # the first time to find the events
     if run.law is None:
         return sum(_march_seconds(count, one) for count, one in marches)
-    further = _further_steps(run.law, run.problem)
-    return sum(_adhesive_seconds(count + further, one) for count, one in marches)
+    return sum(adhesive_seconds(run, run.law, count, one) for count, one in marches)
 
 
 def _march_seconds(steps: float, convolution: float) -> float:
@@ -124,27 +129,15 @@ def _march_seconds(steps: float, convolution: float) -> float:
     return convolution * (FIRST_STEP + LATER_STEP * steps) + STEP_OVERHEAD * steps
 
 
-def _adhesive_seconds(steps: float, convolution: float) -> float:
-    """The same of bodies that adhere [s]."""
-    return steps * (ADHESIVE_STEP * convolution + ADHESIVE_OVERHEAD)
-
-
-def _further_steps(law: CohesiveLaw, problem: Problem) -> float:
-    """Steps of bodies that adhere where their force changes much."""
-    numbers = checks.adhesive_limits.tabor_numbers(law, problem)
-    jumps = 1.0 if numbers is None else min(numbers[1], 1.0)
-    return ADHESIVE_STEPS + jumps * JUMPING_STEPS
-
-
-def convolution_time(grid: Grid) -> float:
+def convolution_time(grid: Grid, timed_cells: int = _TIMED_CELLS) -> float:
     """Duration of a plain zero-padded convolution [s], the unit of work of a run."""
-    return _convolution_time(grid.shape, int(clock.monotonic() / _MEASURED_AGAIN))
+    return _convolution_time(grid.shape, timed_cells, int(clock.monotonic() / _MEASURED_AGAIN))
 
 
 @lru_cache(maxsize=64)
-def _convolution_time(cells: tuple[int, int], period: int) -> float:
+def _convolution_time(cells: tuple[int, int], timed_cells: int, period: int) -> float:
     # Once in a while: a process has many runs on one grid, and the load of the machine changes.
-    shrink = max(1.0, math.sqrt(cells[0] * cells[1] / _TIMED_CELLS))
+    shrink = max(1.0, math.sqrt(cells[0] * cells[1] / timed_cells))
     shape = [fast_length(max(4, int(2 * n / shrink))) for n in cells]
     field = np.ones(shape)
     np.fft.rfft2(field)  # plans and pages
