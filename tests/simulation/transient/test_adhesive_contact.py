@@ -12,7 +12,7 @@ from closeness import close_to
 from returned import some
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.state import Outcome
-from viscontact.reference import maugis_dugdale, tabor_number
+from viscontact.reference import adhesive_line, maugis_dugdale, tabor_number
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.transient.adhesive_contact import AdhesiveContact
 from viscontact.simulation.transient.march import March
@@ -453,3 +453,25 @@ def test_jumps_and_pull_off_of_a_program_have_bars_that_hold_against_finer_cells
     assert (errors < 0.2).all()
     for name in ("pull_off_force", "pull_off_time"):
         assert abs(coarse[name] - fine[name]) <= coarse[f"{name}_error"]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*the approach has no datum:viscontact.AccuracyWarning")
+def test_pull_off_of_a_cylinder_tends_to_that_of_baney_and_hui_at_first_order():
+    # The edge of a line contact crosses all cells along it at once, and holds to each of them: the
+    # errors are those of the cells, 1.56 over their number. Steps of a quarter of the length change
+    # them by 5e-6.
+    exact = -adhesive_line(RADIUS, COMPLIANCE, WORK, RANGE).pull_off.line_load * 1e-4
+    unit = np.cbrt(RADIUS**2 * WORK * COMPLIANCE)
+    errors = []
+    for cells in (48, 96, 192):
+        found = vc.simulate(
+            *(vc.Paraboloid(np.inf, RADIUS), GEL),
+            vc.ForceHistory([0.0, 1.0], [exact, -1.5 * exact]),
+            vc.Grid((1, cells), (1e-4, 9 * unit), periodic=(True, False)),
+            np.linspace(0.0, 1.0, 9),
+            **{"adhesion": adhesion("dugdale"), "errors": False, "fields": "none"},
+        )
+        errors.append(found.attrs["pull_off_force"] / exact - 1)
+    assert [errors[0] / errors[1], errors[1] / errors[2]] == close_to([2.0, 2.0], rel=0.05)
+    assert 2 * errors[2] - errors[1] == close_to(0.0, abs=5e-4)
