@@ -18,7 +18,11 @@ from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.friction.discs import balanced, lengths, on_circle
 from viscontact.mechanics.contact.friction.newton_step import newton_step
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
-from viscontact.mechanics.contact.friction.residual import SlipResidual, slip_residual
+from viscontact.mechanics.contact.friction.residual import (
+    SlipResidual,
+    duality_gap,
+    slip_residual,
+)
 from viscontact.mechanics.contact.friction.sliding import sliding_traction
 
 #: Newton's steps of one solve.
@@ -179,7 +183,7 @@ def _solution(
         found.slip,
         problem.in_contact.astype(np.int8) + reaches,
         found.error,
-        found.duality_gap,
+        duality_gap(problem, traction, found.slip, found.displacement),
         found.displacement,
         *spent,
         converged=found.error <= tolerance and meets,

@@ -24,7 +24,6 @@ class SlipResidual:
     along: Floats  # its components along free directions [m]
     directions: Directions
     error: float  # largest deviation from the friction law over the largest displacement [-]
-    duality_gap: float  # over the energy of the step [-]
     objective: float  # what the solution minimises [Pa m]
     displacement: float  # largest displacement, which errors are relative to [m]
 
@@ -52,7 +51,7 @@ def slip_residual(
     slip = before - rigid
     directions = circles.directions(slip)
     along = directions.projected(slip)
-    largest = max(_largest(before, circles.held), _largest(rigid, circles.held))
+    largest = max(_largest(before, circles.held), _largest_shift(motion, rigid, circles.held))
     scale = max(problem.displacement_scale, largest)
     work = _product(traction, before) + _product(traction, problem.past)
     given = float(shift.resultants(traction) @ constraints.motions) / shift.cell_area
@@ -63,7 +62,6 @@ def slip_residual(
         along,
         directions,
         error=float(lengths(along).max()) / scale,
-        duality_gap=_gap(problem, traction, slip, scale),
         objective=work / 2 - given,
         displacement=scale,
     )
@@ -79,6 +77,13 @@ def _fitting(
     return pseudo_inverse(gram, constraints.free, constraints.arm) @ lacking
 
 
+def _largest_shift(motion: Floats, rigid: Floats, cells: Bools) -> float:
+    """Largest length of a rigid motion in some cells."""
+    if motion[2] or not cells.any():
+        return _largest(rigid, cells)
+    return float(lengths(motion[:2]))
+
+
 def _largest(pairs: Floats, cells: Bools) -> float:
     """Largest length of pairs in some cells."""
     return float(lengths(pairs).max(initial=0.0, where=cells))
@@ -89,7 +94,7 @@ def _product(one: Floats, other: Floats) -> float:
     return float((one * other).sum())
 
 
-def _gap(problem: SlipProblem, traction: Floats, slip: Floats, scale: float) -> float:
+def duality_gap(problem: SlipProblem, traction: Floats, slip: Floats, scale: float) -> float:
     """Σ (μ p |w| + q·w) over the work of all friction on the largest displacement [-]."""
     # Primal less dual objective of the convex problem: it is not negative, is zero at the solution
     # only, and bounds 1/2 (q - q*)·(J T + D) (q - q*).
