@@ -59,7 +59,7 @@ from viscontact.simulation.steady_motion.preparation import SteadySetup
 from viscontact.simulation.steady_motion.problem import SteadyProblem
 from viscontact.simulation.steady_motion.state import force_across, resistance_of, rim_of, state_of
 from viscontact.simulation.steady_motion.traction_bars import (
-    coupled_extents,
+    coupled_bars,
     traction_bars,
     unknown_traction_bars,
 )
@@ -174,7 +174,7 @@ class SteadyCurve:
         if traction is None:
             return bars
         if problem.contact.is_coupled:
-            bars |= coupled_extents(bars)
+            bars |= coupled_bars(problem, fine, bars)
         try:
             rough = self._with_traction(other, coarse).state.rolling_traction
         except ConvergenceError:

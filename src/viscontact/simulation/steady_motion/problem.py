@@ -131,7 +131,8 @@ def _check_coupled(contact: Problem, motion: SteadyMotion) -> None:
             "creepage: pressure and tractions of these bodies are coupled, so that each creepage "
             f"has a pressure of its own, and a result holds one at each speed; got "
             f"{len(motion.creepages)} creepages; give one, and the others in runs of their own "
-            "(viscontact sweep over motion.creepage), or coupling=False, which neglects it"
+            "(viscontact run CASE --vary motion.creepage=1%,2%), or coupling=False, which neglects "
+            "it"
         )
 
 

@@ -42,8 +42,10 @@ def resistance_of(problem: SteadyProblem, contact: SteadyContact) -> Resistance:
         _tilts(contact),
         float(chord) / 2,
     )
+    if contact.lift is None:
+        return found
     # What moves the pressure of coupled bodies ahead is lost by slip, not in them.
-    return found if contact.lift is None else replace(found, slope_weight=1.0, at_end=False)
+    return replace(found, by_dissipation=found.by_slope, slope_weight=1.0, at_end=False)
 
 
 def force_across(problem: SteadyProblem, contact: SteadyContact) -> float:

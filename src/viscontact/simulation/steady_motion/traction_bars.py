@@ -25,8 +25,9 @@ BOUNDARY_CELLS = 1.0
 #: half of 14 to 40 cells stick), and of the boundaries in cells, where all cells slip, too.
 COUPLED_FORCE, COUPLED_POWER, COUPLED_BOUNDARY_CELLS = 10.0, 8.0, 2.0
 
-#: Bars of the extents of their contact over those without friction.
-COUPLED_EXTENTS = 3.0
+#: Bars of the extents of their contact over those without friction, and least error of the
+#: resistance over μ W a/R, times the square of the cells (at most 4.4 in 26 contacts).
+COUPLED_EXTENTS, COUPLED_RESISTANCE = 3.0, 4.0
 
 
 def traction_bars(
@@ -78,10 +79,21 @@ def _coupled_floors(
     }
 
 
-def coupled_extents(bars: Mapping[str, float | Floats]) -> dict[str, float | Floats]:
+def coupled_bars(
+    problem: SteadyProblem, fine: Measured, bars: Mapping[str, float | Floats]
+) -> dict[str, float | Floats]:
     """Bars of a contact of coupled bodies, whose rims err more than without friction."""
-    names = ("contact_length", "contact_width", "contact_area")
-    return {name: COUPLED_EXTENTS * bars[name] for name in names if name in bars}
+    friction, axis, state = problem.contact.friction, problem.axis, fine.state
+    assert friction is not None  # of a problem with creepages
+    extents = ("contact_length", "contact_width", "contact_area")
+    found = {name: COUPLED_EXTENTS * bars[name] for name in extents if name in bars}
+    along = (state.contact_length, state.contact_width)[axis]
+    square = max(along / fine.rim.grid.cell_size[axis], 1.0) ** 2
+    slope = along / 2 * problem.contact.indenter.curvatures[axis]
+    least = COUPLED_RESISTANCE / square * friction.coefficient * slope
+    for name, scale in ((f"resistance_{'xy'[axis]}", state.force), ("friction_coefficient", 1.0)):
+        found[name] = np.maximum(bars[name], least * scale)
+    return found
 
 
 def unknown_traction_bars(traction: RollingTraction | None) -> dict[str, Floats]:
