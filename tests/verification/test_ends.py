@@ -139,6 +139,19 @@ def test_the_line_load_falls_towards_free_ends(ratio: float, expected: tuple[flo
     assert found.tilt_x[0] == 0.0  # by symmetry
 
 
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+def test_the_line_load_near_free_ends_hardly_changes_on_finer_cells(ratio: float) -> None:
+    places, found = HALF_WIDTH * np.array([0.5, 1.0, 2.0, 4.0]), []
+    for cells in (160, 320):
+        ds = _cylinder(ratio, cells)
+        half = slice(2 + cells // 2, -2)
+        from_end = LENGTH / 2 - ds.x.values[half]
+        found.append(np.interp(places, from_end[::-1], ds.line_load[0].values[half][::-1]) / LINE)
+    assert found[0] == close_to(found[1], rel=3e-3)
+
+
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # no datum
 def test_an_eccentric_force_on_two_free_ends_is_balanced_and_has_no_tilt() -> None:
     one, other = (_cylinder(0.3, 40, eccentricity_x=side * 0.3e-3) for side in (-1, 1))

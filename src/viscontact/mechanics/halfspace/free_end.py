@@ -131,19 +131,30 @@ def _stress(panels: LogPanels, poisson_ratio: float) -> Floats:
     """Stress s on the other face at depths Z (columns) of unit line loads at X (rows)."""
     along, depth = panels.places[:, None], panels.places
     distance = np.hypot(along, depth)
-    order_0 = scipy.special.k0(distance)
+    order_0, order_1 = (
+        _of_both_sides(function, distance) for function in (scipy.special.k0, scipy.special.k1)
+    )
     # ∫_Z^∞ K_0(√(X² + t²)) dt from its value at Z = 0, (π/2) exp(-X), would lose digits far away.
     below = panels.integrals_until(order_0.T).T
     beyond = panels.weights @ order_0.T
     tail = beyond[:, None] - below
-    order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
+    order_2 = order_0 + 2 * order_1 / distance
     radial = along**2 * depth * order_2 / distance**2
     return np.asarray((radial - (1 - 2 * poisson_ratio) * tail) / np.pi)
 
 
+def _of_both_sides(function: Callable[[Floats], Floats], places: Floats) -> Floats:
+    """Values of a slow function at the entries of a matrix that is symmetric."""
+    found = np.empty_like(places)
+    upper = np.triu_indices(len(places))
+    found[upper] = found.T[upper] = function(places[upper])
+    return found
+
+
 def _displacement(panels: LogPanels) -> Floats:
     """Displacement at the nodes of the mirrored half-space under a density at the nodes."""
-    image = scipy.special.k0(panels.places[:, None] + panels.places) * panels.weights
+    image = _of_both_sides(scipy.special.k0, panels.places[:, None] + panels.places)
+    image *= panels.weights
     own = panels.weights_of_logarithm(lambda distance: np.asarray(scipy.special.k0(distance)))
     return np.asarray(2 / np.pi * (own + image))
 

@@ -84,9 +84,11 @@ class LogPanels:
 
     def weights_of_logarithm(self, kernel: Callable[[Floats], Floats]) -> Floats:
         """Weights of ∫ k(|X - X'|) f(X') dX' at the nodes X, for a kernel with a logarithm at 0."""
-        distance = np.abs(self.places[:, None] - self.places)
-        np.fill_diagonal(distance, 1.0)
-        found = kernel(distance) * self.weights
+        found = np.zeros((len(self.places),) * 2)
+        upper = np.triu_indices(len(self.places), 1)
+        far = kernel(self.places[upper[1]] - self.places[upper[0]])
+        found[upper] = found.T[upper] = far
+        found *= self.weights
         panels = np.arange(len(self.edges) - 1)
         for node in range(NODES):
             for side in (-1, 0, 1):
