@@ -73,6 +73,22 @@ def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
     assert same_bits("case", at_once)
 
 
+def test_resumed_run_on_a_body_that_ends_ends_in_the_same_bits(folder: Path) -> None:
+    """The contact reaches the free end at -x, beside a sphere that is pressed off the middle."""
+    ends = "poisson_ratio: 0.5\n  length: 4 mm\n  centre: 1.75 mm\n  ends: [free, null]\n"
+    text = WITH_ERRORS.replace("poisson_ratio: 0.5\n", ends)
+    text = text.replace("duration: 1 s}", "duration: 1 s, tilt_x: 0 deg}").replace("4 N", "2 N")
+    (folder / "case.yaml").write_text(text, encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
+    with xr.open_dataset(folder / "at once" / "result.nc") as ds:
+        at_once = ds.load()
+    assert at_once.pressure.values[-1, 10].any()
+    assert not at_once.pressure.values[-1, :10].any()
+    kill(4, "-q")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    assert same_bits("case", at_once)
+
+
 @pytest.mark.slow
 def test_resumed_run_on_layers_ends_in_the_same_bits(folder: Path) -> None:
     """Two terms, each with its own internal variables: a cover that creeps on an elastic core."""
