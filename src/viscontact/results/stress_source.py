@@ -249,6 +249,11 @@ def stress_source(
         results = results.isel(creepage=0)
     ended = recorded_end_response(results, body, "stresses")
     if ended is not None:
+        if any(recorded_grid(results).periodic):
+            raise ValueError(
+                "stresses: not available in a body that ends along x, under a contact that repeats "
+                "along y; see its pressure, or compute a contact of finite width"
+            )
         ratio = ended.poisson_ratio if poisson_ratio is None else poisson_ratio
         ended = replace(ended, poisson_ratio=ratio)
         own = halfspace.ended_stress.response_of(ended)

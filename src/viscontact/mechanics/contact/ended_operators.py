@@ -146,6 +146,7 @@ class EndedOperators:
                 self._grid.cell_size,
                 self._borders_of(response),
                 moving,
+                periodic=self._grid.periodic[1],
             )
         return self._rows[response, moving]
 

@@ -22,6 +22,7 @@ from viscontact.mechanics.halfspace.layered_influence import (
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
 from viscontact.mechanics.halfspace.periodic_influence import smooth_periodic_table
 from viscontact.mechanics.halfspace.surface_response import (
+    HALF_SPACE,
     HalfSpaceResponse,
     SummedResponse,
     SurfaceResponse,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
         EndCorrection,
         MovingEndCorrection,
     )
+    from viscontact.mechanics.halfspace.periodic_ends import MirroredPeriod, PeriodicBasis
 
 
 #: Most cells of a domain whose rows are kept beyond it.
@@ -110,10 +112,12 @@ class EndedRows:
 
     borders: tuple[int | None, int | None]  # planes in rows from the first row of the domain
     coefficients: Floats  # [m], of the period of two lengths, or empty for one plane
-    bases: tuple[EndBasis, ...]  # of the free ends, over the rows within the body
+    bases: tuple[EndBasis | PeriodicBasis, ...]  # of the free ends, over the rows within the body
     first: int  # first row of the domain within the body
     #: Under a load that moves along y; coefficients are at signed offsets then, for one plane, too.
     moving: MovingCompliance | None = None
+    #: Along y the columns repeat, and line loads displace nothing at this distance [m].
+    datum: float | None = None
 
     def mirrored_coefficients(
         self, shape: tuple[int, int], cell_size: tuple[float, float]
@@ -125,6 +129,9 @@ class EndedRows:
             return self.coefficients[:rows, middle - columns + 1 : middle + columns]
         if None not in self.borders:
             return self.coefficients[:, :columns]
+        if self.datum is not None:
+            turned = (columns, rows), cell_size[::-1]
+            return periodic_layered_table(*turned, HALF_SPACE, self.datum).T
         return influence_table(shape, cell_size)
 
 
@@ -134,9 +141,16 @@ def ended_rows(
     cell_size: tuple[float, float],
     borders: tuple[int | None, int | None],
     moving: MovingCompliance | None = None,
+    *,
+    periodic: bool = False,
 ) -> EndedRows:
-    """Rows of a domain of a shape that has all columns, with planes at borders of its rows."""
+    """Rows of a domain of a shape that has all columns, with planes at borders of its rows.
+
+    With `periodic`, the columns are a period along y.
+    """
     few = moving is None and shape[0] * shape[1] <= KEPT_CELLS
+    if periodic:
+        return (_kept_period if few else _rows_of_period)(response, shape, cell_size, borders)
     return (_kept_rows if few else _rows)(response, shape, cell_size, borders, moving)
 
 
@@ -184,8 +198,25 @@ def _rows(
     return EndedRows(borders, table, bases, begin)
 
 
+def _rows_of_period(
+    response: EndedResponse,
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    borders: tuple[int | None, int | None],
+) -> EndedRows:
+    """The same where the columns are a period along y."""
+    before, after = borders
+    begin = max(before or 0, 0)
+    rows = range(begin, shape[0] if after is None else min(after, shape[0]))
+    bases = halfspace.periodic_ends.bases_of_period(
+        response.poisson_ratio, response.free, rows, borders, cell_size, shape[1]
+    )
+    return EndedRows(borders, np.empty((0, 0)), bases, begin, datum=shape[0] * cell_size[0])
+
+
 #: Kept rows of small grids: an automatic grid is found by several solutions on each of some grids.
 _kept_rows = lru_cache(maxsize=8)(_rows)
+_kept_period = lru_cache(maxsize=8)(_rows_of_period)
 
 
 def _moving_table(
@@ -311,32 +342,27 @@ class EndedConvolution:
         self._rows = slice(start, start + end - begin)
         ny = self.shape[1] * (1 + mirrored)
         periodic, moving = None not in ended.borders, ended.moving
-        coefficients = ended.mirrored_coefficients((2 * count, ny), cell_size)
-        self._mirrored = Convolution(
-            coefficients,
-            mirrored=(True, mirrored),
-            periodic=(periodic, False),
-            single=single,
-            signed=None if moving is None else 1,
-            **options,
-        )
+        self._mirrored: Convolution | MirroredPeriod
+        if ended.datum is not None and periodic:
+            del options["team"]
+            period = halfspace.periodic_ends.MirroredPeriod
+            self._mirrored = period((count, ny), cell_size, single=single, **options)
+        else:
+            self._mirrored = Convolution(
+                ended.mirrored_coefficients((2 * count, ny), cell_size),
+                mirrored=(True, mirrored),
+                periodic=(periodic, ended.datum is not None),
+                single=single,
+                signed=None if moving is None else 1,
+                **options,
+            )
         self._padded = (
             None
             if count == end - begin
             else np.zeros((count, self.shape[1]), np.float32 if single else np.float64)
         )
         own = slice(begin - ended.first, end - ended.first)
-        self._corrections: list[EndCorrection | MovingEndCorrection]
-        if moving is None:
-            self._corrections = [
-                halfspace.EndCorrection(basis, own, ny, cell_size, mirrored=mirrored, single=single)
-                for basis in ended.bases
-            ]
-        else:
-            self._corrections = [
-                halfspace.MovingEndCorrection(basis, own, ny, cell_size[1], moving, single=single)
-                for basis in ended.bases
-            ]
+        self._corrections = _corrections_of(ended, own, ny, cell_size, mirrored, single)
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
@@ -356,6 +382,29 @@ class EndedConvolution:
             return self._mirrored.apply(inside[turn])[turn]
         self._padded[self._rows] = inside[turn]
         return self._mirrored.apply(self._padded)[self._rows][turn]
+
+
+def _corrections_of(
+    ended: EndedRows,
+    rows: slice,
+    columns: int,
+    cell_size: tuple[float, float],
+    mirrored: bool,
+    single: bool,
+) -> list[EndCorrection | MovingEndCorrection]:
+    """What free ends add on rows of the body and a number of columns."""
+    if ended.datum is not None:
+        period = halfspace.periodic_ends.PeriodicEndCorrection
+        return [period(basis, rows, columns, single=single) for basis in ended.bases]
+    found: list[EndCorrection | MovingEndCorrection] = []
+    for basis in ended.bases:
+        if ended.moving is None:
+            shared = (basis, rows, columns, cell_size)
+            found.append(halfspace.EndCorrection(*shared, mirrored=mirrored, single=single))
+        else:
+            moved = (basis, rows, columns, cell_size[1], ended.moving)
+            found.append(halfspace.MovingEndCorrection(*moved, single=single))
+    return found
 
 
 class WeightedOperators:

@@ -150,7 +150,7 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
         np.tensordot(transform, np.array([part[k] for part in parts]), axes=1) for k in (1, 2)
     )
     error = float((skew + tail) / largest)
-    return StripTable(panels, coefficients, limit, error, freed, sent, _face().panels)
+    return StripTable(panels, coefficients, limit, error, freed, sent, face_of_strips().panels)
 
 
 def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
@@ -163,7 +163,7 @@ def _plate(poisson_ratio: float, places: Floats, *, odd: bool) -> Floats:
 
 def _added(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floats, Floats]:
     """G at w = k W, between the nodes of the surface; load on the faces, and stress by it above."""
-    face = _face()
+    face = face_of_strips()
     stress, freed, sent = freeing_loads(wave, poisson_ratio, sign)
     rate = np.hypot(1.0, face.waves)
     sinh, _, denominator, _ = slab(rate * wave, sign)
@@ -174,7 +174,7 @@ def _added(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floa
 
 def freeing_loads(wave: float, poisson_ratio: float, sign: float) -> tuple[Floats, Floats, Floats]:
     """Stress on the faces at w = k W, load on them that frees them, and stress by it above."""
-    face = _face()
+    face = face_of_strips()
     stress = _stress_on_face(wave, poisson_ratio, sign)
     weighted = stress * (wave * surface_panels().weights)
     above = _stress_on_surface(wave, poisson_ratio, sign)
@@ -187,7 +187,7 @@ def freeing_loads(wave: float, poisson_ratio: float, sign: float) -> tuple[Float
 
 def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """T: normal stress at nodes of the face (rows) under lines at distances X from it (columns)."""
-    face, along = _face(), wave * surface_panels().places
+    face, along = face_of_strips(), wave * surface_panels().places
     depth = face.panels.places[:, None]
     order_0, radial = _bessel_functions(wave)
     # ∫ K_0 from Z on, not from ∫ until Z and its whole, which would lose digits far away.
@@ -210,7 +210,7 @@ def _images(rate: Floats, wave: float, along: Floats, sign: float) -> Floats:
 
 def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """F: normal stress at distances X from a face (rows) under lines at its nodes (columns)."""
-    face, surface = _face(), surface_panels()
+    face, surface = face_of_strips(), surface_panels()
     depth, along = face.panels.places, wave * surface.places[:, None]
     order_0, radial = (each.T for each in _bessel_functions(wave))
     until = wave * (surface.integrals_until(order_0) + ON_SURFACE * scipy.special.k0(depth))
@@ -232,7 +232,7 @@ def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats
 @lru_cache(maxsize=WAVES)
 def _bessel_functions(wave: float) -> tuple[Floats, Floats]:
     """K_0(R) and K_2(R)/R² between nodes of the face (rows) and of the surface (columns)."""
-    distance = np.hypot(_face().panels.places[:, None], wave * surface_panels().places)
+    distance = np.hypot(face_of_strips().panels.places[:, None], wave * surface_panels().places)
     order_0 = scipy.special.k0(distance)
     order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
     return order_0, np.asarray(order_2 / distance**2)
@@ -263,7 +263,7 @@ def surface_panels() -> LogPanels:
 
 
 @lru_cache(maxsize=1)
-def _face() -> Face:
+def face_of_strips() -> Face:
     """Places on the faces, and their transforms."""
     panels = LogPanels.over(ON_FACE, DEEPEST, RATIO)
     borders = _borders(OF_IMAGES[0], OF_IMAGES[1] / LONGEST_WAVES[0], IMAGE_RATIO)

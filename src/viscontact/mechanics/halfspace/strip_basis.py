@@ -117,7 +117,7 @@ def strip_basis(
     table = _table_of(poisson_ratio, strip.stack, half_length, odd=odd)
     distance, signs = strip.from_face(rows)
     signs = signs[:, None] if odd else np.ones((len(rows), 1))
-    means = signs * _cell_means(table.panels, distance, strip.half_length)
+    means = signs * cell_means(table.panels, distance, strip.half_length)
     highest = table.highest_wave / half_length
     borders = _borders(highest, max(half_length, width, longest), cell_size[0])
     waves, measures = panel_nodes(borders, NODES)
@@ -174,7 +174,7 @@ def _borders(middle: float, width: float, edge: float) -> Floats:
     return np.asarray(middle * 2.0**powers)
 
 
-def _cell_means(panels: LogPanels, distance: Floats, half_length: float) -> Floats:
+def cell_means(panels: LogPanels, distance: Floats, half_length: float) -> Floats:
     """Weights of means over rows at distances from a face; the middle row may be half a row."""
     near, far = distance / half_length, np.minimum((distance + 1) / half_length, 1.0)
     between = panels.weights_until(far) - panels.weights_until(near)

@@ -14,9 +14,9 @@ from viscontact.bodies.indenters import Roller
 from viscontact.bodies.loads import LoadPoint
 from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
-from viscontact.bodies.materials.layers import Layered
+from viscontact.bodies.materials.layers import Layered, without_ends
 from viscontact.mechanics import halfspace
-from viscontact.mechanics.halfspace.ended_half_space import EndedLayers
+from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import ended_response
 from viscontact.units.formatting import format_quantity
@@ -27,6 +27,9 @@ SAME = 1e-6
 #: Part of the displacement at an end that the elements of layers miss at most, for Poisson's ratios
 #: up to LARGEST_RATIO: on meshes twice as fine it changes by less than half as much.
 LAYER_ERROR, LARGEST_RATIO = 1e-3, 0.495
+
+#: Longest period along y of bodies between two ends in half lengths, of which one wave is in tables.
+LONGEST_PERIOD = 2 * math.pi / 0.08
 
 #: Reason why a body between two ends has no approach.
 NO_DATUM = (
@@ -56,10 +59,24 @@ def check_ends(problem: Problem) -> None:
                 )
     _check_roller(problem)
     _check_layers(problem)
+    _check_line_grid(problem)
     supported = problem.ends_twice and problem.surface.is_supported
     if problem.ends_twice and not supported and problem.load.control != "force":
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
+        )
+
+
+def _check_line_grid(problem: Problem) -> None:
+    """Refuse to choose a grid for a contact that goes on along y."""
+    if isinstance(problem.grid, Grid) or not problem.cut_indenter.endless[1]:
+        return
+    name = next(iter(problem.ended_bodies), None)
+    if name is not None:
+        raise ValueError(
+            f"grid: no grid is chosen for a contact that goes on along y on a body that ends along "
+            f"x ({name}.ends); give one with 'periodic: [false, true]', 'shape' and 'size', a "
+            "single cell along y"
         )
 
 
@@ -104,12 +121,7 @@ def _moves_along_x(motion: Motion) -> bool:
 def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
     """Refuse a grid whose cells do not end where the bodies do."""
     for name, body in problem.ended_bodies.items():
-        if any(grid.periodic):
-            raise ValueError(
-                f"grid.periodic: must be false for a body that ends ({name}.ends): it has no "
-                "period along x, and what its ends add to a contact that goes on along y is not "
-                "available; give a grid that is not periodic, and a contact of finite width along y"
-            )
+        _check_period_of_ends(problem, grid, name)
         for plane in body.planes:
             if plane is None or is_border(grid, plane):
                 continue
@@ -125,6 +137,38 @@ def check_grid_of_ends(problem: Problem, grid: Grid) -> None:
         begins, stops = grid.centre[0] - half, grid.centre[0] + half
         if (before is not None and before >= stops) or (after is not None and after <= begins):
             raise ValueError(f"{name}.ends: no cell of the grid lies on the body; move the grid")
+
+
+def _check_period_of_ends(problem: Problem, grid: Grid, name: str) -> None:
+    """Refuse a period with which the ends of a body are not known."""
+    if grid.periodic[0]:
+        raise ValueError(
+            f"grid.periodic: must be false along x for a body that ends there ({name}.ends); give "
+            "'periodic: [false, true]' for a contact that goes on along y, or no period"
+        )
+    if not grid.periodic[1]:
+        return
+    if isinstance(without_ends(problem.ended_bodies[name]), Layered):
+        raise ValueError(
+            f"{name}.ends: layers that end are not available on a grid that is periodic along y; "
+            "give one material, or a grid without period"
+        )
+    if not problem.motion.stands:
+        raise ValueError(
+            f"{name}.ends: a contact that repeats along y cannot move on a body that ends along x; "
+            "leave motion out, or give a grid without period"
+        )
+    body = problem.ended_bodies[name]
+    if body.ends.count("free") == 0 or None in body.ends or grid.shape[1] == 1:
+        return
+    longest = LONGEST_PERIOD * body.length / body.ends.count("free")
+    if grid.size[1] > longest:
+        raise ValueError(
+            f"grid.size: a period along y of bodies that end on both sides ({name}.ends) is at most "
+            f"{format_quantity(longest, 'm', 3)} long, as longer waves are not known, and not "
+            f"{format_quantity(grid.size[1], 'm', 3)}; give a single cell along y if nothing varies "
+            "there, or a shorter period"
+        )
 
 
 def check_tilt_of_ends(
@@ -170,11 +214,23 @@ def error_of_ends(problem: Problem, *, even: bool) -> float:
             found = (table(response.stack, half, odd=odd).error for odd in kinds)
             errors.append(LAYER_ERROR + max(found))
             continue
-        ratio = response.poisson_ratio
-        errors.append(halfspace.ends_error(ratio))
-        if None not in body.ends:
-            errors[-1] += max(halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds)
+        errors.append(_error_of(response, kinds, problem))
     return max(errors)
+
+
+def _error_of(response: EndedResponse, kinds: tuple[bool, ...], problem: Problem) -> float:
+    """The same of one half-space, under pressures of kinds: odd ones, or even ones."""
+    twice, mean, grid = None not in response.planes, 0.0, problem.grid
+    if isinstance(grid, Grid) and grid.periodic[1]:
+        strip = halfspace.plane_strip.plane_strip
+        mean = halfspace.periodic_ends.NEGLECTED + max(strip(odd=odd).error for odd in kinds) * twice
+        if grid.shape[1] == 1:  # only the mean along y counts
+            return mean
+    ratio = response.poisson_ratio
+    found = halfspace.ends_error(ratio) + mean
+    if twice:
+        found += max(halfspace.strip_basis.strip_error(ratio, odd=odd) for odd in kinds)
+    return found
 
 
 def stress_left_on_ends(problem: Problem, grid: Grid, pressure: Floats | None) -> float:
@@ -184,8 +240,8 @@ def stress_left_on_ends(problem: Problem, grid: Grid, pressure: Floats | None) -
     """
     if not any("free" in body.ends for body in problem.ended_bodies.values()):
         return 0.0
-    if pressure is None or not pressure.any():
-        return math.nan
+    if pressure is None or not pressure.any() or grid.periodic[1]:
+        return math.nan  # of a contact that repeats, it is not known
     left = halfspace.end_certificate.stress_left
     pairs = [pair for pair in zip(problem.ends, problem.bodies, strict=True) if pair[0]]
     if any(isinstance(material, Layered) for _, material in pairs):
