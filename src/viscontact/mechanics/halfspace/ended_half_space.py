@@ -112,12 +112,12 @@ class EndedRows:
 
     borders: tuple[int | None, int | None]  # planes in rows from the first row of the domain
     coefficients: Floats  # [m], of the period of two lengths, or empty for one plane
-    bases: tuple[EndBasis | PeriodicBasis, ...]  # of the free ends, over the rows within the body
+    bases: tuple[EndBasis, ...]  # of the free ends, over the rows within the body
     first: int  # first row of the domain within the body
     #: Under a load that moves along y; coefficients are at signed offsets then, for one plane, too.
     moving: MovingCompliance | None = None
-    #: Along y the columns repeat, and line loads displace nothing at this distance [m].
-    datum: float | None = None
+    repeats: bool = False  # the columns are a period along y
+    periodic: tuple[PeriodicBasis, ...] = ()  # in place of `bases` then
 
     def mirrored_coefficients(
         self, shape: tuple[int, int], cell_size: tuple[float, float]
@@ -127,11 +127,10 @@ class EndedRows:
         if self.moving is not None:
             middle = self.coefficients.shape[1] // 2
             return self.coefficients[:rows, middle - columns + 1 : middle + columns]
+        if self.repeats:
+            return self.coefficients[:rows]
         if None not in self.borders:
             return self.coefficients[:, :columns]
-        if self.datum is not None:
-            turned = (columns, rows), cell_size[::-1]
-            return periodic_layered_table(*turned, HALF_SPACE, self.datum).T
         return influence_table(shape, cell_size)
 
 
@@ -211,7 +210,14 @@ def _rows_of_period(
     bases = halfspace.periodic_ends.bases_of_period(
         response.poisson_ratio, response.free, rows, borders, cell_size, shape[1]
     )
-    return EndedRows(borders, np.empty((0, 0)), bases, begin, datum=shape[0] * cell_size[0])
+    table = np.empty((0, 0))
+    if before is None or after is None:
+        count = shape[0] - (before or 0) if after is None else after - begin
+        turned = (shape[1], 2 * count), cell_size[::-1]
+        # Line loads displace nothing at the distance of the grid's length.
+        datum = shape[0] * cell_size[0]
+        table = periodic_layered_table(*turned, HALF_SPACE, datum).T
+    return EndedRows(borders, table, (), begin, repeats=True, periodic=bases)
 
 
 #: Kept rows of small grids: an automatic grid is found by several solutions on each of some grids.
@@ -343,7 +349,7 @@ class EndedConvolution:
         ny = self.shape[1] * (1 + mirrored)
         periodic, moving = None not in ended.borders, ended.moving
         self._mirrored: Convolution | MirroredPeriod
-        if ended.datum is not None and periodic:
+        if ended.repeats and periodic:
             del options["team"]
             period = halfspace.periodic_ends.MirroredPeriod
             self._mirrored = period((count, ny), cell_size, single=single, **options)
@@ -351,7 +357,7 @@ class EndedConvolution:
             self._mirrored = Convolution(
                 ended.mirrored_coefficients((2 * count, ny), cell_size),
                 mirrored=(True, mirrored),
-                periodic=(periodic, ended.datum is not None),
+                periodic=(periodic, ended.repeats),
                 single=single,
                 signed=None if moving is None else 1,
                 **options,
@@ -393,9 +399,9 @@ def _corrections_of(
     single: bool,
 ) -> list[EndCorrection | MovingEndCorrection]:
     """What free ends add on rows of the body and a number of columns."""
-    if ended.datum is not None:
+    if ended.repeats:
         period = halfspace.periodic_ends.PeriodicEndCorrection
-        return [period(basis, rows, columns, single=single) for basis in ended.bases]
+        return [period(basis, rows, columns, single=single) for basis in ended.periodic]
     found: list[EndCorrection | MovingEndCorrection] = []
     for basis in ended.bases:
         if ended.moving is None:

@@ -209,7 +209,9 @@ class MirroredPeriod:
     # The pressure with its image, on a grid that is periodic along both axes: half of the lines of
     # its transforms could be saved.
 
-    def __init__(self, shape: tuple[int, int], cell_size: tuple[float, float], **options: Any) -> None:
+    def __init__(
+        self, shape: tuple[int, int], cell_size: tuple[float, float], **options: Any
+    ) -> None:
         """Take the rows between the planes."""
         rows, columns = shape
         self._rows = rows

@@ -7,9 +7,9 @@ This is the operator G of `strip` at k = 0, in units of its half length W, with 
 
 and κ = nπ, n >= 1, under even pressures, κ = (n + 1/2)π under odd ones; Poisson's ratio is in none
 of them. A uniform pressure has no wave κ: it compresses the strip as a column, whose end stays
-plane, and counts as no displacement. A pressure that is linear in x bends the strip as a beam, whose
-end stays plane, too, and counts as none. Without its moment, odd pressures have loads on the faces
-up to one that moves the strip as a rigid body, which is chosen at will.
+plane, and counts as no displacement. A pressure that is linear in x bends the strip as a beam,
+whose end stays plane, too, and counts as none. Without its moment, odd pressures have loads on the
+faces up to one that moves the strip as a rigid body, which is chosen at will.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ SAME = 1e-6
 #: up to LARGEST_RATIO: on meshes twice as fine it changes by less than half as much.
 LAYER_ERROR, LARGEST_RATIO = 1e-3, 0.495
 
-#: Longest period along y of bodies between two ends in half lengths, of which one wave is in tables.
+#: Longest period along y between two ends, in half lengths: its wave is the longest in tables.
 LONGEST_PERIOD = 2 * math.pi / 0.08
 
 #: Reason why a body between two ends has no approach.
@@ -164,10 +164,10 @@ def _check_period_of_ends(problem: Problem, grid: Grid, name: str) -> None:
     longest = LONGEST_PERIOD * body.length / body.ends.count("free")
     if grid.size[1] > longest:
         raise ValueError(
-            f"grid.size: a period along y of bodies that end on both sides ({name}.ends) is at most "
-            f"{format_quantity(longest, 'm', 3)} long, as longer waves are not known, and not "
-            f"{format_quantity(grid.size[1], 'm', 3)}; give a single cell along y if nothing varies "
-            "there, or a shorter period"
+            f"grid.size: a period along y of a body that ends on both sides ({name}.ends) is at "
+            f"most {format_quantity(longest, 'm', 3)} long, as longer waves are not known, and not "
+            f"{format_quantity(grid.size[1], 'm', 3)}; give a single cell along y if nothing "
+            "varies there, or a shorter period"
         )
 
 
@@ -223,7 +223,9 @@ def _error_of(response: EndedResponse, kinds: tuple[bool, ...], problem: Problem
     twice, mean, grid = None not in response.planes, 0.0, problem.grid
     if isinstance(grid, Grid) and grid.periodic[1]:
         strip = halfspace.plane_strip.plane_strip
-        mean = halfspace.periodic_ends.NEGLECTED + max(strip(odd=odd).error for odd in kinds) * twice
+        mean = (
+            halfspace.periodic_ends.NEGLECTED + max(strip(odd=odd).error for odd in kinds) * twice
+        )
         if grid.shape[1] == 1:  # only the mean along y counts
             return mean
     ratio = response.poisson_ratio
