@@ -263,7 +263,7 @@ def test_two_bodies_may_end_at_different_places() -> None:
         ({"motion": vc.Travel([0.0, 1.0], x=[0.0, 1e-3])}, "the motion is along x"),
         ({"friction": 0.3}, "friction is not available"),
         ({"adhesion": vc.Adhesion(work=0.1, range=1e-6)}, "adhesion is not available"),
-        ({"periodic": (False, True)}, "grid.periodic: must be false .* that goes on along y"),
+        ({"periodic": (True, False)}, "grid.periodic: must be false .* that goes on along y"),
         ({"ends": "held", "load": vc.step(approach=1e-6)}, "has no datum"),
         ({"centre": 10e-3, "length": 8e-3}, "no cell of the grid"),
     ],
