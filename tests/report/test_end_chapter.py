@@ -53,6 +53,16 @@ def test_the_chapter_says_where_bodies_end_and_compares_line_loads(track: xr.Dat
     assert "<img" in text
 
 
+def test_a_line_contact_beside_an_end_is_not_compared_with_half_spaces() -> None:
+    body = vc.Body(vc.Material(vc.Elastic(700e6), 0.4), LENGTH)
+    grid = vc.Grid((96, 1), (LENGTH, 1e-3), periodic=(False, True))
+    cylinder = vc.Paraboloid(10e-3, np.inf)
+    ds = vc.simulate(cylinder, body, vc.step(50.0), grid, [0.0, 1.0], errors=False)
+    assert compared_loads(ds) is None
+    text = "".join(tostring(part, encoding="unicode") for part in end_chapter(ds))
+    assert "free of stress" in text
+
+
 def test_a_report_of_bodies_without_ends_has_no_chapter_on_them() -> None:
     material = vc.Material(LAW, 0.4)
     ds = vc.simulate(ROLLER, material, vc.step(40.0), GRID, [0.0], errors=False)

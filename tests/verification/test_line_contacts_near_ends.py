@@ -11,6 +11,9 @@ import xarray as xr
 import viscontact as vc
 from closeness import close_to
 from viscontact.backend.arrays import Floats
+from viscontact.mechanics.problem.problem import Problem
+from viscontact.simulation.meshing.elastic_estimate import estimate_period
+from viscontact.simulation.transient.setup import prepare_run
 
 #: Length of a strip, and force on its period [m, N].
 LENGTH, PERIOD, FORCE = 2e-3, 1e-3, 100.0
@@ -155,6 +158,24 @@ def test_a_row_of_spheres_between_walls_is_a_grid_with_two_periods() -> None:
         vc.Sphere(0.01), rubber, vc.step(0.02), both, [0.0], tolerance=1e-8, errors=False
     )
     assert held.pressure[0].values[3:33] == close_to(rows.pressure[0].values, rel=1e-6, abs=1e-2)
+
+
+def test_what_to_expect_is_estimated_with_the_ends() -> None:
+    # On more cells than an estimate takes of a period, as the end must be a border of cells.
+    grid = vc.Grid((330, 1), (2.2e-3, PERIOD), periodic=(False, True))
+    own = Problem(
+        vc.Paraboloid(0.01, np.inf),
+        vc.Body(STEEL, LENGTH * 10, centre=LENGTH * 5 - 0.4e-3, ends=BESIDE_END),
+        vc.step(2e6 * PERIOD),
+        grid,
+        times=np.array([0.0]),
+    )
+    run = prepare_run(own)
+    compliance, point = own.compliance(0.0), own.load.at(0.0)
+    response = own.surface.response_at(0.0)
+    found = estimate_period(own.cut_indenter, compliance, point, run.grid, response=response)
+    computed = vc.simulate(own.indenter, own.material, own.load, grid, [0.0], errors=False)
+    assert found.peak_pressure == close_to(float(computed.peak_pressure[0]), rel=1e-3)
 
 
 CYLINDER, LINE_GRID = vc.Paraboloid(0.01, np.inf), vc.Grid((72, 1), (2.4e-3, 1e-3), (False, True))

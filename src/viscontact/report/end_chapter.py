@@ -74,6 +74,8 @@ def compared_loads(ds: xr.Dataset) -> ComparedLoads | None:
     axis = run_axis(ds)
     if not axis.is_history or ds.sizes.get("x", 0) * ds.sizes.get("y", 0) > MOST_CELLS:
         return None
+    if recorded_grid(ds).periodic[1]:  # a line load is that of a period
+        return None
     try:
         stored = take_snapshots(ds, None, "ends")
     except ValueError:  # no fields, or no contact

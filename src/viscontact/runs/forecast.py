@@ -88,7 +88,7 @@ def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEsti
     problem = run.problem
     response = problem.surface.response_at(problem.end)
     if any(run.grid.periodic):
-        return estimate_period(problem.indenter, compliance, point, run.grid, response=response)
+        return estimate_period(problem.cut_indenter, compliance, point, run.grid, response=response)
     return locate_contact(problem.cut_indenter, compliance, point, response=response)
 
 
