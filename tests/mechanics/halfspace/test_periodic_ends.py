@@ -56,6 +56,20 @@ def test_a_strip_is_the_limit_of_long_waves_between_two_ends() -> None:
     assert np.divide(found[:-1], found[1:]) == close_to([4.0, 4.0], rel=0.1)
 
 
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.5])
+def test_waves_longer_than_those_of_the_table_of_a_strip_tend_to_plane_strain(ratio: float) -> None:
+    # Longer ones are on a parabola through those of the table; the limit is solved without waves.
+    places = surface_panels().places
+    picked = np.searchsorted(places, [1e-3, 1e-2, 0.1, 0.3, 0.6, 0.95])
+    nodes, table, wave = np.ix_(picked, picked), strip_table(ratio, odd=False), 1e-6
+    added = np.tensordot(table.weights(np.array([wave]))[0], table.entries, axes=1) - (
+        table.limit / wave
+    )
+    plane = plane_strip(odd=False).added[nodes]
+    apart = added[nodes] - plane
+    assert np.abs(apart - apart[-1, -1]).max() < 1e-3 * np.abs(plane).max()
+
+
 @pytest.mark.parametrize("odd", [False, True])
 def test_a_face_of_a_strip_is_near_to_it_that_of_a_quarter_plane(odd: bool) -> None:
     places = surface_panels().places

@@ -83,9 +83,14 @@ class StripTable:
 
     def weights(self, waves: Floats) -> Floats:
         """Weights of coefficients, then of the limit, in G at w = k W; (waves, coefficients)."""
-        # Towards longer waves w G - limit falls as w.
         inside = np.maximum(waves, LOWEST_WAVE)
         powers = chebyshev.chebvander(_scaled(inside), WAVES - 1) / inside[:, None]
+        # Towards longer waves G - limit/w is nearly a parabola.
+        long = waves < LOWEST_WAVE
+        if long.any():
+            known = LOWEST_WAVE * np.array([1.0, 2.0, 4.0])
+            through = chebyshev.chebvander(_scaled(known), WAVES - 1) / known[:, None]
+            powers[long] = polynomial_weights(known, waves[long]) @ through
         return np.column_stack([powers, 1 / waves])
 
     def chebyshev(self, wave: float) -> Floats:
@@ -107,6 +112,14 @@ class StripTable:
     def entries(self) -> Floats:
         """Coefficients and limit, shape (coefficients, nodes, nodes)."""
         return np.concatenate([self.coefficients, self.limit[None]])
+
+
+def polynomial_weights(known: Floats, places: Floats) -> Floats:
+    """Weights of values at known places in a polynomial through them, at others."""
+    vander = np.polynomial.polynomial.polyvander
+    count = len(known) - 1
+    scaled = known / known[-1], places / known[-1]
+    return np.asarray(vander(scaled[1], count) @ np.linalg.inv(vander(scaled[0], count)))
 
 
 def _scaled(waves: Floats) -> Floats:
