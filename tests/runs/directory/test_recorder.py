@@ -10,6 +10,7 @@ import os
 import shutil
 import stat
 import time as clock
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from viscontact.backend import compiled, transforms
 from viscontact.mechanics.contact.equilibrium import ContactSolution
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS, KeptFields
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.state import ContactState
 from viscontact.results.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory import recorder
 from viscontact.runs.directory.checkpoint import (
@@ -36,6 +38,7 @@ from viscontact.runs.directory.recorded import ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
 from viscontact.simulation.transient import frictionless
+from viscontact.simulation.transient.march import March
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 
 COUNT = 12
@@ -236,6 +239,45 @@ def test_run_of_a_batch_saves_its_steps_after_a_pause(
     assert saved[:6] == [0, 0, 0, 0, 0, 6]
     record.finish()
     assert same_bits(recorded.directory, whole)
+
+
+def test_long_first_step_of_a_run_of_a_batch_is_saved(
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now, march = [0.0], March.__iter__
+
+    def slow(this: March) -> Iterator[ContactState | None]:
+        for state in march(this):
+            now[0] += 60.0
+            yield state
+
+    monkeypatch.setattr(March, "__iter__", slow)
+    monkeypatch.setattr("viscontact.runs.directory.recorder.clock.monotonic", lambda: now[0])
+    stop_after(Recorder(recorded, pause=5.0), 1)
+    record = Recorder.resume(recorded)
+    assert record.resumed.rows == 1
+    finish(record)
+    assert same_bits(recorded.directory, whole)
+
+
+def test_run_of_a_batch_that_saves_its_steps_has_all_before_its_errors_are_estimated(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 1e9)
+    recorded = Recorded(tmp_path, OverTime(sphere_run(), errors=True))
+    record = Recorder(recorded, pause=1e-9)
+    saved = [record.saved.rows for _ in record.steps()]
+    assert saved == [1] * COUNT
+
+    def stop() -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        record.estimate_errors(stop)
+    record.close()
+    record = Recorder.resume(recorded)
+    assert record.resumed.rows == COUNT
+    record.close()
 
 
 def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(

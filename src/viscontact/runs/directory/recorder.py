@@ -26,7 +26,8 @@ _LOG = logging.getLogger("viscontact")
 
 #: Least time between two checkpoints: in seconds, and as a multiple of what the last one took.
 PAUSE, SHARE = 1.0, 20.0
-#: Time before the first checkpoint of a run of a batch, which is repeated rather than resumed [s].
+#: Time from the start of a run of a batch to its first checkpoint: until then it is repeated, not
+#: resumed [s].
 BATCH_PAUSE = 1.0
 
 #: Context within which no signal interrupts what has to be written together.
@@ -48,9 +49,9 @@ class Recorder:
     """
 
     # A checkpoint publishes the result and saves the restart state of the march. It comes after the
-    # first step, or in a batch, whose runs are short, after a pause; then once a second or less
-    # often, so that checkpoints take at most a twentieth of the time. The march is deterministic:
-    # a resumed run computes the same bits again.
+    # first step, or in a batch, whose runs are short, after the first one that ends a pause or more
+    # after the start; then once a second or less often, so that checkpoints take at most a
+    # twentieth of the time. The march is deterministic: a resumed run computes the same bits again.
 
     saved: Reached  # at the last checkpoint, from which `resume` continues
     shown: Reached  # in the published result
@@ -65,7 +66,7 @@ class Recorder:
         pause: float = 0.0,
     ) -> None:
         self._set_up(recorded, recorded.run.states(), on_begin, undisturbed)
-        self._pause = pause  # before the first checkpoint [s]
+        self._pause = pause  # from the start to the first checkpoint, 0 once there is one [s]
         self._writer = recorded.new_writer()
 
     @classmethod
@@ -118,6 +119,8 @@ class Recorder:
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
         """March, and yield each converged step once recorded, None for an inner one; as `march`."""
         march = self._march
+        if self._pause:
+            self._due = clock.monotonic() + self._pause
         for state in march:
             with self._undisturbed():
                 self._record(state)
@@ -139,7 +142,7 @@ class Recorder:
                 self._save()
                 self._writer.reopen()
         now = clock.monotonic()
-        self._due = now + max(PAUSE, SHARE * (now - began))
+        self._due, self._pause = now + max(PAUSE, SHARE * (now - began)), 0.0
 
     def publish(self) -> None:
         """Publish the result, also where the march has been stopped within a step."""
@@ -151,7 +154,7 @@ class Recorder:
         """Estimate the errors of the scalars after the last step; None where none are requested."""
         if not self._recorded.run.errors:
             return None
-        # A run that has not had its first one takes less time to repeat than to save.
+        # A run whose first one is not due yet takes less time to repeat than to save.
         if not self._pause or clock.monotonic() >= self._due:
             self.checkpoint()
         with self._undisturbed():
@@ -239,8 +242,6 @@ class Recorder:
             self._recorded.check()
             self._on_begin()
         self._lines = self._recorded.new_log()
-        if self._pause:
-            self._due = clock.monotonic() + self._pause
 
     def _save(self, *, begun: bool = True) -> None:
         recorded = self._recorded

@@ -36,7 +36,7 @@ class Monitor:
     say: Callable[[str], None]
     #: Called with the number of rows, None if the run chooses its steps, and the finished ones.
     progress: Callable[[int | None, int], AbstractContextManager[Progress]]
-    pause: float = 0.0  # before the first checkpoint of a run [s]
+    pause: float = 0.0  # from the start of a run to its first checkpoint [s]
 
 
 def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
