@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -53,3 +54,14 @@ def test_places_of_mounts_may_contain_blanks(tmp_path: Path) -> None:
     table = tmp_path / "mounts"
     table.write_text("disk /mnt/my\\040runs ext4 rw 0 0\nhost:/ /a\\134b nfs4 rw 0 0\n")
     assert mounted(table) == [("/mnt/my runs", "ext4"), ("/a\\b", "nfs4")]
+
+
+@pytest.mark.parametrize("blank", [*"\u00a0\u2003\u2028\u0085\v\f\r\x1c"])
+def test_places_of_mounts_may_contain_blanks_that_are_not_escaped(
+    blank: str, tmp_path: Path
+) -> None:
+    # Linux escapes the space, tab, line feed, backslash and # alone.
+    table = tmp_path / "mounts"
+    lines = f"host:/ /mnt/My{blank}Disk nfs4 rw 0 0\ndisk / ext4 rw 0 0\n"
+    table.write_bytes(os.fsencode(lines))
+    assert mounted(table) == [(f"/mnt/My{blank}Disk", "nfs4"), ("/", "ext4")]

@@ -45,7 +45,9 @@ def bound_cores() -> int:
 def mounted(table: Path = _MOUNTS) -> list[tuple[str, str]]:
     """Place and kind of each mounted file system."""
     try:
-        rows = [line.split() for line in os.fsdecode(table.read_bytes()).splitlines()]
+        # The paths of mounts may hold other blanks and ends of lines, such as U+00A0 and U+0085.
+        lines = os.fsdecode(table.read_bytes()).split("\n")
+        rows = [line.split(" ") for line in lines if line]
         return [(_unescaped(place), kind) for _, place, kind, *_ in rows]
     except (OSError, ValueError):
         import psutil
