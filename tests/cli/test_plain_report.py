@@ -23,7 +23,7 @@ def plain(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
 
 
-@pytest.mark.parametrize("columns", [None, "40", "120"])
+@pytest.mark.parametrize("columns", [None, "40", "120", "²", "9" * 5000, "-1", "٤٠"])
 def test_random_rows_and_warnings_are_printed_as_by_rich(
     columns: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -33,9 +33,9 @@ def test_random_rows_and_warnings_are_printed_as_by_rich(
     for _ in some(range(60)):
         rows = [
             (chance.choice(WORDS[:1]), " ".join(chance.choices(WORDS, k=chance.randrange(1, 4))))
-            for _ in range(chance.randrange(1, 5))
+            for _ in range(chance.randrange(5))
         ]
-        line = rows[0][1]
+        line = rows[0][1] if rows else "no rows"
         PlainReport().rows(rows, 13)
         PlainReport().warn(line)
         PlainReport().text(line)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from viscontact.cli.terminal.messages import put
+from viscontact.cli.terminal.screen_size import is_number
 from viscontact.units.visible import visible
 
 #: Variables that ask Rich for the colours of a terminal in a file.
@@ -40,6 +41,8 @@ class PlainReport:
 
     def rows(self, rows: Sequence[tuple[str, str]], least: int) -> None:
         """Print names and values, the names in a column of a least width."""
+        if not rows:
+            return
         shown = [(visible(name), visible(value)) for name, value in rows]
         names = max([least, *(len(name) for name, _ in shown)])
         values = max(len(value) for _, value in shown)
@@ -58,7 +61,7 @@ class PlainReport:
 def _width() -> int:
     """Width of the terminal of any stream, as Rich finds it."""
     given = os.environ.get("COLUMNS", "")
-    if given.isdigit() and int(given):
+    if is_number(given) and int(given):
         return int(given)
     for stream in (0, 1, 2):
         try:
