@@ -234,10 +234,6 @@ void locate(Crossings &crossings, const Field<Flag> &contact, const Field<double
     for (const Interval &here : oblique) crossings.write(here);
 }
 
-}  // namespace
-
-namespace {
-
 // Writes how many corners of each square are inside, 0 in place of all four; returns how many
 // squares have all four.
 FOR_PROCESSORS

@@ -16,7 +16,8 @@ from viscontact.backend.lazy_dataclass import dataclass
 class Declared:
     """Argument or option of a command: the names of an option, and what is known of its values."""
 
-    names: tuple[str, ...] | None  # None of an argument; none of an option called as its parameter
+    # None for an argument; empty for an option named after its parameter
+    names: tuple[str, ...] | None
     metavar: str | None = None  # how help calls its value
     help: str | None = None
     min: int | None = None
