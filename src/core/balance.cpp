@@ -110,19 +110,25 @@ Weighed weighed(const Plane &plane, const Doubles &pressure, const Motion &facto
 std::array<double, 2> weigh(const Plane &plane, const Doubles &pressure, const Motion &targets,
                             const Free &free, double cell_area, double arm) {
     const auto parts = plane.each([&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        double least = BEYOND;
+        double least = BEYOND, unknown = 0;
         for (std::ptrdiff_t i = begin; i < end; ++i) {
             const double *row = pressure.row(i);
-#pragma omp simd reduction(min : least)
-            for (std::ptrdiff_t j = 0; j < pressure.columns; ++j)
+#pragma omp simd reduction(min : least) reduction(+ : unknown)
+            for (std::ptrdiff_t j = 0; j < pressure.columns; ++j) {
                 least = row[j] < least ? row[j] : least;
+                unknown += row[j] == row[j] ? 0.0 : 1.0;
+            }
         }
-        return least;
+        return unknown > 0 ? NONE : least;
     });
+    double least = BEYOND;
+    for (const double part : parts)
+        if (!(part >= least)) least = part;
+    for (const double part : parts)
+        if (part != part) least = part;  // not a number
     Motion resultants = sums(plane, pressure);
     for (double &each : resultants) each *= cell_area;
-    return {*std::min_element(parts.begin(), parts.end()),
-            imbalance(resultants, targets, free, arm)};
+    return {least, imbalance(resultants, targets, free, arm)};
 }
 
 bool balance(const Plane &plane, const Doubles &pressure, const Motion &targets, const Free &free,

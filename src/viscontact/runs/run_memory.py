@@ -29,9 +29,10 @@ FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 #: Further arrays under a moving body, and of a sum over all steps.
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
-#: Arrays of the whole grid for the trends of gap and pressure on a creeping body: two of numbers
-#: and three of marks. With symmetry planes, those after a step count besides those before it.
-ARRAYS_OF_TRENDS = 2.375
+#: Arrays for the trends of gap and pressure on a creeping body: two of numbers and three of marks.
+#: With symmetry planes they are of the cells computed, and those after a step count besides those
+#: before it; so do arrays of the whole grid, of which the marks' part is 0.4, the rest measured.
+ARRAYS_OF_TRENDS, ARRAYS_OF_MARKS = 2.375, 1.0
 
 #: Arrays of the whole grid under friction: pairs of tractions, of their reference, trend and start,
 #: of slip and of the next state, and single ones; and those of each term of the law.
@@ -75,7 +76,9 @@ def run_memory(run: RunSetup) -> float:
             further += ARRAYS_OF_SUM
     fields += FIELDS_OF_TERM * len(run.other_terms)
     creeps = not run.problem.surface.creep.is_elastic
-    whole = ARRAYS_OF_TRENDS * creeps * (1 + any(run.mirrored))
+    whole = ARRAYS_OF_TRENDS * creeps
+    if any(run.mirrored):
+        whole = (2 * 0.5 ** sum(run.mirrored) * ARRAYS_OF_TRENDS + ARRAYS_OF_MARKS) * creeps
     if run.law is not None:
         further += ARRAYS_OF_ADHESION
     if run.problem.friction is not None:

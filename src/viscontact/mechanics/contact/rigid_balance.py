@@ -106,7 +106,8 @@ class Constraints:
             if is_free
         ]
         # Not Python's `max`, which may pass over NaN.
-        return math.nan if any(map(math.isnan, errors)) else max(errors, default=0.0)
+        unknown = any(map(math.isnan, (found[0], *errors)))
+        return math.nan if unknown else max(errors, default=0.0)
 
 
 class RigidPlane:

@@ -9,6 +9,7 @@ from verification.independent import deflection
 from viscontact.mechanics.contact.adhesion.descent import Descent
 from viscontact.mechanics.contact.adhesion.equilibrium import solve_from, solve_near
 from viscontact.mechanics.contact.adhesion.newton import newton_search
+from viscontact.mechanics.contact.adhesion.problem import residual_of
 from viscontact.mechanics.contact.problem import Guess
 
 #: Tabor numbers, cells and quarter sides with six cells or more across the cohesive zone.
@@ -193,3 +194,14 @@ def test_remainder_of_a_law_that_increases_is_a_repulsion_that_falls():
     np.testing.assert_allclose(
         law.remainder.slope(gaps + 5e-7, across), ends / 1e-6, rtol=1e-3, atol=1e-4
     )
+
+
+@pytest.mark.parametrize("cells", [slice(None), slice(3, 4)])
+@pytest.mark.parametrize("field", [0, 1])
+def test_what_is_no_number_has_no_residual(cells, field):
+    sphere = Sphere("exponential", 0.5, 16, 5.0)
+    state = sphere.contact(approach=-0.1).found
+    values = state.values.copy()
+    values[field, cells] = np.nan
+    found = residual_of(sphere.problem(approach=-0.1), sphere.domain, Guess(values, state.motion))
+    assert np.isnan(found.error)

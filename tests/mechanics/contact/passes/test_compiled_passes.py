@@ -12,10 +12,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import viscontact as vc
 from closeness import close_to
 from viscontact.backend import compiled
 from viscontact.backend.arrays import Floats
 from viscontact.backend.team import Team
+from viscontact.mechanics.contact.line_load import peak_line_load
 from viscontact.mechanics.contact.passes.compiled_passes import CompiledPasses
 from viscontact.mechanics.contact.passes.contract import Measured, SearchPasses, StepAhead
 from viscontact.mechanics.contact.passes.numpy_passes import NumPyPasses
@@ -211,6 +213,48 @@ def test_balanced_pressures(problem: Any) -> None:
         assert other.min() >= 0
 
 
+@given(problems, st.sampled_from([None, np.nan]))
+def test_least_pressures_and_imbalances(problem: Any, value: float | None) -> None:
+    fields = Fields(**problem)
+    pressure = fields.field()
+    if value is not None:
+        pressure[-1, 0] = value
+    given = pressure, fields.constraints, 1e-6, 1e-2
+    (least, off), (expected, expected_off) = (
+        passes.weigh(*given) for passes in (fields.compiled, fields.numpy)
+    )
+    np.testing.assert_equal(least, expected)
+    np.testing.assert_allclose(off, expected_off, rtol=1e-9, atol=1e-12)
+
+
+@given(problems, st.booleans())
+def test_changes_over_a_step(problem: Any, first: bool) -> None:
+    fields = Fields(**problem)
+    core = compiled.core
+    assert core is not None
+    given = [np.ascontiguousarray(fields.field()) for _ in range(4)]
+    before = None if first else np.ascontiguousarray(fields.field())
+    rate, alone = np.empty(given[0].shape), Team()
+    found = core.step_change(*given, 0.7, before, rate, 1)
+    contact = (given[0] > 0) | (given[1] > 0)
+    alike(rate, given[2] / 0.7 - given[3] / 0.7, 1e-13)
+    changes = [alone.mean_change(contact, each) for each in (given[2], rate)]
+    changes.append(0.0 if before is None else alone.mean_change(contact, rate, before))
+    np.testing.assert_allclose(found, changes, rtol=1e-12)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.floats(1e-3, 20.0), st.booleans())
+def test_peak_line_loads(seed: int, rows: int, length: float, periodic: bool) -> None:
+    random = np.random.default_rng(seed)
+    # Lengths are those of a contact, at most that of the grid.
+    grid = vc.Grid((rows + 3, 4), (max(length, 1.0), 1.0), periodic=(periodic, False))
+    load = np.where(random.random(rows + 3) < 0.3, 0.0, random.random(rows + 3))
+    alone, together = (
+        peak_line_load(load, grid, length, team) for team in (Team(), Team(core=compiled.core))
+    )
+    assert together == close_to(alone, 1e-12)
+
+
 @given(problems, st.sampled_from([1e-3, 0.5, 5.0]))
 def test_trial_steps(problem: Any, length: float) -> None:
     fields = Fields(**problem)
@@ -270,6 +314,7 @@ def test_threads_that_the_system_refuses_leave_their_work_to_the_caller() -> Non
     script = """
 import resource
 import numpy as np
+import viscontact as vc
 from viscontact.backend import compiled
 axis, values = np.linspace(-1.0, 1.0, 600), np.random.default_rng(1).random((600, 600))
 alone, many = (compiled.core.Plane(axis, axis, (1.0, 1.0), (False, False), n) for n in (1, 64))

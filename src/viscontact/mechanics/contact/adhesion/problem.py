@@ -133,8 +133,13 @@ class AdhesiveResidual:
 
     @property
     def error(self) -> float:
-        """Relative residual [-]."""
-        return max(self.of_gap, self.of_traction, self.imbalance)
+        """Relative residual [-]; NaN if a part of it is."""
+        return _largest(self.of_gap, self.of_traction, self.imbalance)
+
+
+def _largest(*values: float) -> float:
+    """The largest of some values; unlike Python's `max`, NaN if there is one."""
+    return math.nan if any(map(math.isnan, values)) else max(values)
 
 
 def residual_of(
@@ -151,10 +156,10 @@ def residual_of(
     in_contact = pressed * cell_stiffness_inverse(problem, domain) > gap
     touching = np.flatnonzero(in_contact)
     open_gap = gap.ravel()[touching].max(initial=0.0)
-    overlap = max(float(open_gap), -float(gap.min()))
+    overlap = _largest(float(open_gap), -float(gap.min()))
     tensile = -float(pressed.min())
     pressed.ravel()[touching] = 0.0
-    missing = max(tensile, float(pressed.max()), 0.0)
+    missing = _largest(tensile, float(pressed.max()), 0.0)
     spacing = math.sqrt(domain.whole.cell_area)
     return AdhesiveResidual(
         gap,
