@@ -85,6 +85,54 @@ def test_search_ends_after_its_evaluations() -> None:
     assert len(calls) == 3
 
 
+def decay(x: np.ndarray) -> np.ndarray:
+    """Misses of exp(-t/tau), over ln(1/tau); those of a fast decay no longer change."""
+    t = np.linspace(0.1, 5, 50)
+    return np.exp(-t * np.exp(x[0])) - np.exp(-t)
+
+
+def test_a_limited_step_does_not_jump_past_the_solution() -> None:
+    # The linear model of a slow decay leads to ln(1/tau) > 100, with a lower sum of squares.
+    slopes = lambda x: central_differences(decay, x)  # noqa: E731
+    anywhere, start = (np.array([-np.inf]), np.array([np.inf])), np.array([-6.0])
+    assert float(np.sum(decay(np.array([100.0])) ** 2)) < float(np.sum(decay(start) ** 2))
+    found = least_squares(decay, slopes, start, anywhere, SHARP, np.array([2.0]))
+    assert found == close_to(np.zeros(1), abs=1e-7)
+
+
+def test_no_step_is_longer_than_the_longest() -> None:
+    ends = [np.array([-1.2, 1.0])]
+
+    def noted(x: np.ndarray) -> np.ndarray:
+        ends.append(x)  # where a step ends, the slopes are asked for
+        return central_differences(rosenbrock, x)
+
+    found = least_squares(rosenbrock, noted, ends[0], ANYWHERE, SHARP, np.array([0.1, np.inf]))
+    assert found == close_to(np.ones(2), rel=1e-9)
+    assert 0.09 < np.abs(np.diff(np.array(ends)[:, 0])).max() <= 0.1 + 1e-12
+
+
+def test_a_start_without_a_number_is_refused() -> None:
+    # as by SciPy's least_squares: "Residuals are not finite in the initial point"
+    with pytest.raises(ValueError, match=r"residuals must be finite .* got nan in row 1"):
+        solved(lambda x: np.array([x[0], np.nan * x[1]]), (1.0, 2.0))
+
+
+def test_slopes_without_a_number_are_refused() -> None:
+    slopes = lambda x: np.array([[np.inf, 0.0], [0.0, 1.0]])  # noqa: E731
+    with pytest.raises(ValueError, match=r"slopes must be finite .* got inf in row 0"):
+        least_squares(rosenbrock, slopes, np.array([-1.2, 1.0]), ANYWHERE, SHARP)
+
+
+def test_a_step_to_where_there_is_no_number_is_shortened() -> None:
+    def root(x: np.ndarray) -> np.ndarray:
+        with np.errstate(invalid="ignore"):
+            return np.append(np.sqrt(x[0] + 0.1) - 0.4, x[1])
+
+    # From 1.5 the tangent leads to -0.4, where the root is no number.
+    assert solved(root, (1.5, 1.0)) == close_to(np.array([0.06, 0.0]), abs=1e-9)
+
+
 @pytest.mark.parametrize("step", [1.0, 0.1])
 def test_central_differences_are_exact_for_parabolas(step: float) -> None:
     found = central_differences(lambda x: np.array([x[0] ** 2 * step, x[1]]), np.array([2.0, 1.0]))

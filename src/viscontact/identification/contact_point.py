@@ -22,6 +22,8 @@ from viscontact.units.numbers import real_array, whole
 _CANDIDATES = 100  # of the contact point in the first search
 _LEAST_BASELINE = 0.05  # of the loading rows: fewer do not determine a line
 _STEEPEST_BASELINE = 0.5  # of the mean slope in contact: steeper ones are in contact themselves
+#: Longest step of the line, which is linear, of the contact over the way, and of the logarithm.
+_LONGEST = np.array([np.inf, np.inf, 0.1, 2.0])
 _NEWTON_STEPS = 60  # more than ever needed: each step at least approaches from one side
 
 
@@ -190,7 +192,8 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
 
     first = _scaled_curve(start, middle, extent, scale)
     anywhere = np.full(4, np.inf)
-    ended = least_squares(misses, slopes, first, (-anywhere, anywhere), Tolerances(1e-12, 1e-14))
+    bounds, sharp = (-anywhere, anywhere), Tolerances(1e-12, 1e-14)
+    ended = least_squares(misses, slopes, first, bounds, sharp, _LONGEST)
     offset, slope, contact, logarithm = ended
     noise = float(np.linalg.norm(misses(ended))) / np.sqrt(max(z.size - 4, 1))
     jacobian = slopes(ended)

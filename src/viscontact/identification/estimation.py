@@ -16,6 +16,7 @@ from viscontact.identification.least_squares import Tolerances, least_squares
 
 _STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
 _REACH = np.log(1e8)  # largest change of ln p from its start
+_LONGEST = 2.0  # change of ln p in a step: longer ones jump past solutions
 _FINER = 2  # times as many nodes for the last step
 _LEFT = 0.02  # of the standard errors: a smaller step changes nothing of the result
 _TOUCH = 1e-9  # of the largest response: less is none
@@ -139,8 +140,9 @@ def estimated(problem: Problem, start: Floats | None = None) -> Estimate:
     names = len(problem.shape.names)
     reach = np.concatenate([np.full(names, _REACH), problem.reach])
     bounds = (first - reach, first + reach)
+    longest = np.concatenate([np.full(names, _LONGEST), np.full(problem.reach.size, np.inf)])
     slopes = partial(differences, guarded)
-    ended = least_squares(guarded, slopes, first, bounds, Tolerances(1e-7, 1e-9, 60))
+    ended = least_squares(guarded, slopes, first, bounds, Tolerances(1e-7, 1e-9, 60), longest)
     return _with_covariance(projected, ended, bounds)
 
 

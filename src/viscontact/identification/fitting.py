@@ -22,10 +22,7 @@ def fitted_record(
     problem: RecordProblem, record: IndentationRecord, confidence: float
 ) -> IndentationFit:
     """Fit of a law to a record whose approach, or force, is exact."""
-    estimate = estimated(problem)
-    if problem.has_coarser and not estimate.is_found:
-        problem = replace(problem, begins_coarse=False)
-        estimate = estimated(problem, estimate.free)
+    problem, estimate = _estimated_record(problem)
     material = problem.law_of(estimate.free)
     return IndentationFit(
         material=material,
@@ -35,6 +32,18 @@ def fitted_record(
         until=float(problem.record.times[-1]),
         **_law_values(problem.shape, estimate, confidence),
     )
+
+
+def _estimated_record(problem: RecordProblem) -> tuple[RecordProblem, Estimate]:
+    """Estimate by the coarser solution if that leads there, else by the exact one alone."""
+    if not problem.has_coarser:
+        return problem, estimated(problem)
+    exact = replace(problem, begins_coarse=False)
+    try:
+        coarse = estimated(problem)
+        return (problem, coarse) if coarse.is_found else (exact, estimated(exact, coarse.free))
+    except ValueError:  # it led to laws whose exact solution ends
+        return exact, estimated(exact)
 
 
 def fitted_curve(
