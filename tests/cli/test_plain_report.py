@@ -7,6 +7,7 @@ import random
 import pytest
 
 from returned import some
+from viscontact.cli.entry import main
 from viscontact.cli.terminal.console import TextConsole
 from viscontact.cli.terminal.plain_report import PlainReport, _table
 
@@ -23,7 +24,7 @@ def plain(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
 
 
-@pytest.mark.parametrize("columns", [None, "40", "120", "²", "9" * 5000, "-1", "٤٠"])
+@pytest.mark.parametrize("columns", [None, "40", "120", "-1", "٤٠"])
 def test_random_rows_and_warnings_are_printed_as_by_rich(
     columns: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -44,6 +45,24 @@ def test_random_rows_and_warnings_are_printed_as_by_rich(
         TextConsole().warn(line)
         TextConsole().print(line, soft_wrap=True)
         assert found == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("size", ["²", "9" * 5000])
+@pytest.mark.parametrize("words", [["--help"], ["material"]])
+def test_size_of_a_terminal_that_is_no_number_is_as_none(
+    size: str,
+    words: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(words) == 0
+    expected = capsys.readouterr()
+    for name in ("COLUMNS", "LINES"):
+        monkeypatch.setenv(name, size)
+    PlainReport().rows([("grid", "160 x 160 cells")], 13)
+    assert capsys.readouterr().out == "  grid           160 x 160 cells\n"
+    assert main(words) == 0
+    assert capsys.readouterr() == expected
 
 
 def test_colours_are_left_to_rich(

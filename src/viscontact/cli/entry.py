@@ -13,6 +13,7 @@ from viscontact.backend.errors import is_lack_of_memory
 from viscontact.cli.quick_imports import quick_imports
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
+from viscontact.cli.terminal.screen_size import forget_unreadable_sizes
 from viscontact.cli.terminal.streams import occupy_streams, remember_output, unwritten
 from viscontact.units.visible import visible
 
@@ -49,6 +50,7 @@ def main(
 def _run_watched(arguments: Sequence[str] | None, code_of: Callable[[CommandError], int]) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
         limit_libraries()
+        forget_unreadable_sizes()
         typed = None if arguments is None else list(arguments)
         code = _exit_code(typed, interruption, code_of)
         interruption.over = True

@@ -7,7 +7,6 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
-from viscontact.cli.terminal.screen_size import readable_environment
 from viscontact.units.visible import visible
 
 
@@ -15,13 +14,7 @@ class TextConsole(Console):
     """Console in whose texts nothing is markup, a sign's name or a control character."""
 
     def __init__(self, *, stderr: bool = False, width: int | None = None) -> None:
-        super().__init__(
-            stderr=stderr,
-            width=width,
-            markup=False,
-            emoji=False,
-            _environ=readable_environment(),
-        )
+        super().__init__(stderr=stderr, width=width, markup=False, emoji=False)
 
     def render_str(self, text: str, **how: Any) -> Text:
         """Make the text that is printed; tables and bars call it for theirs, too."""
