@@ -66,7 +66,7 @@ def row(text: str, *beginning: str) -> list[str]:
 
 
 #: Where the README's errors are from: its row, and case, reference and quantity on the page.
-CREEPING_ROW = "creeping sphere: Maxwell (errors), Zener 512², 120 steps (time)"
+CREEPING_ROW = "creeping sphere: Maxwell (errors), Zener 256², 120 steps (time)"
 PERIODIC_ROW = "periodic: waves (errors), rough plane 1024² (time)"
 CREEPING = "ball under a sudden force, Maxwell", "Lee & Radok 1960"
 ROLLER = "eccentric roller, sudden force, PMMA", "Lee & Radok 1960, correspondence"
@@ -106,10 +106,10 @@ def test_errors_in_the_readme_are_those_that_were_verified(
 @pytest.mark.parametrize(
     ("problem", "beginning", "columns"),
     [
-        ("sphere, 512² cells", ("free sphere 512²", "1e-8"), (2, 4, 5)),
+        ("sphere, 512² cells", ("free sphere 512²", "1e-8"), (2, 4)),
         (
             CREEPING_ROW,
-            ("Zener sphere 512², 120 steps", "1e-8"),
+            ("Zener sphere 256², 120 steps", "1e-8"),
             (2, 4),
         ),
         (
