@@ -139,7 +139,7 @@ def test_a_sphere_that_sticks_is_fitted_and_used(tmp_path: Path) -> None:
             "#fit-form input[type=file]",
             [{"name": "curve.csv", "mimeType": "text/csv", "buffer": curve(0.5)}],
         )
-        page.wait_for_function("document.getElementById('fit-file').value === 'curve.csv'")
+        page.wait_for_function("() => document.getElementById('fit-file').value === 'curve.csv'")
         assert page.input_value("#fit-kind") == "adhesion"
         assert page.is_hidden("#fit-tip")
         assert page.is_hidden("#fit-law")
@@ -147,7 +147,7 @@ def test_a_sphere_that_sticks_is_fitted_and_used(tmp_path: Path) -> None:
             page.fill(f"#fit-{name}", text)
         page.fill("#fit-poisson_ratio", "0.5")
         page.click("#fit-go")
-        page.wait_for_selector("#fit-drawings svg", timeout=60_000)
+        page.wait_for_selector("#fit-drawings img", timeout=60_000)
         assert "MPa" in page.inner_text("#fit-parameters")
         assert page.inner_text("#fit-use") == "Use as material and adhesion"
         with page.expect_response("**/api/check"):
