@@ -71,7 +71,8 @@ def test_a_sweep_is_typed_run_and_a_case_of_it_opened(page: Any) -> None:
 
 
 def test_a_study_survives_a_reload_and_is_cancelled_and_continued(page: Any) -> None:
-    seen.visit(page, page.server, LONG)
+    # Long enough for a reload and a click before the third run ends.
+    seen.visit(page, page.server, LONG.replace("steps: 600", "steps: 6000"))
     page.click("#study summary")
     page.select_option("#study-key-1", "load.force")
     page.fill("#study-key-1-values", "2 N, 3 N, 4 N")
