@@ -74,7 +74,7 @@ def section_stresses(
     ``splitting_error``: the pressure of all instants from time 0 on has to be stored.
 
     A body that ends has the stresses of its pressure with all images about its ends, and of what
-    frees its free ends (`viscontact.mechanics.halfspace.ended_stress`). The attributes
+    frees its free ends (``viscontact.mechanics.halfspace.ended_stress``). The attributes
     ``ends_error`` and ``end_stress_left`` are those of the result.
 
     Examples
