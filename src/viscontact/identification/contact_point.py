@@ -196,13 +196,12 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
     ended = least_squares(misses, slopes, first, bounds, sharp, _LONGEST)
     offset, slope, contact, logarithm = ended
     noise = float(np.linalg.norm(misses(ended))) / np.sqrt(max(z.size - 4, 1))
-    jacobian = slopes(ended)
-    covariance = noise**2 * np.linalg.pinv(jacobian.T @ jacobian)
+    variance = _variance_of_contact(slopes(ended), noise)
     found = ContactPoint(
         curve=curve,
         indenter=indenter,
         position=float(middle + extent * contact),
-        position_error=float(extent * np.sqrt(covariance[2, 2])),
+        position_error=float(extent * np.sqrt(variance)),
         offset=float(scale * (offset - slope * middle / extent)),
         slope=float(scale * slope / extent),
         noise=noise * scale,
@@ -210,6 +209,11 @@ def find_contact(curve: ForceCurve, indenter: Indenter, *, reach: float = 0.3) -
     )
     _require_contact(found, z)
     return found
+
+
+def _variance_of_contact(jacobian: Floats, noise: float) -> float:
+    """Variance of the place of contact, the third unknown of the search."""
+    return float((noise**2 * np.linalg.pinv(jacobian.T @ jacobian))[2, 2])
 
 
 def deflection_in_contact(

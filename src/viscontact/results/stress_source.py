@@ -249,15 +249,7 @@ def stress_source(
         results = results.isel(creepage=0)
     ended = recorded_end_response(results, body, "stresses")
     if ended is not None:
-        if any(recorded_grid(results).periodic):
-            raise ValueError(
-                "stresses: not available in a body that ends along x, under a contact that repeats "
-                "along y; see its pressure, or compute a contact of finite width"
-            )
-        ratio = ended.poisson_ratio if poisson_ratio is None else poisson_ratio
-        ended = replace(ended, poisson_ratio=ratio)
-        own = halfspace.ended_stress.response_of(ended)
-        return StressSource(results, (own,), getattr(ended, "stack", None), ended=ended)
+        return _ended_source(results, ended, poisson_ratio)
     if not is_layered(results, body):
         ratio = recorded_poisson_ratio(results, body) if poisson_ratio is None else poisson_ratio
         signs = _signs(results, body)
@@ -276,6 +268,21 @@ def stress_source(
     history = stress_history(layered, span, sheared=len(signs) > 1)
     responses = _of_stacks(history.stacks, signs)
     return StressSource(results, responses, history.stacks[0], history, clock, signs)
+
+
+def _ended_source(
+    results: xr.Dataset, ended: EndedResponse, poisson_ratio: float | None
+) -> StressSource:
+    """Source of the stresses in a body that ends along x."""
+    if any(recorded_grid(results).periodic):
+        raise ValueError(
+            "stresses: not available in a body that ends along x, under a contact that repeats "
+            "along y; see its pressure, or compute a contact of finite width"
+        )
+    ratio = ended.poisson_ratio if poisson_ratio is None else poisson_ratio
+    ended = replace(ended, poisson_ratio=ratio)
+    own = halfspace.ended_stress.response_of(ended)
+    return StressSource(results, (own,), getattr(ended, "stack", None), ended=ended)
 
 
 def at_largest_traction(results: xr.Dataset) -> xr.Dataset:

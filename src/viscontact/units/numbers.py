@@ -158,7 +158,7 @@ def _as_floats(given: Any, unit: str) -> Array:
     if type(given) in _PLAIN:
         return np.array(given, dtype=np.float64)
     numbers, factor = _without_unit(given, unit)
-    # Nothing is masked before somebody has imported the module, which takes 4 ms.
+    # Imported by whoever masks values; else not, as that takes 4 ms.
     if "numpy.ma" in sys.modules and np.ma.is_masked(numbers):
         raise ValueError("masked values; leave them out, or fill them with numbers")
     array = np.asarray(None if isinstance(numbers, list | tuple) else numbers)

@@ -5,21 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mechanics.halfspace.ended_bodies import ENDS, GRID
 from viscontact.backend.arrays import Floats
-from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace import free_end, strip
 from viscontact.mechanics.halfspace.end_certificate import stress_left
 from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
-
-GRID = Grid((44, 32), (4.4, 1.6))
-
-ENDS = {
-    "one end": ((-2.0, None), (True, False)),
-    "the other end": ((None, 2.0), (False, True)),
-    "two free ends": ((-2.0, 2.0), (True, True)),
-    "end and wall": ((-2.0, 2.0), (True, False)),
-    "wall and end": ((-2.0, 2.0), (False, True)),
-}
 
 
 def _pressure() -> Floats:

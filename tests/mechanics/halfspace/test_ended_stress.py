@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from closeness import close_to
+from mechanics.halfspace.ended_bodies import ENDS, GRID
 from returned import some
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
@@ -19,16 +20,6 @@ from viscontact.mechanics.halfspace.ended_stress import (
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stress import stress_on_plane, stress_on_section
 from viscontact.mechanics.halfspace.stress_response import HalfSpaceStress
-
-GRID = Grid((44, 32), (4.4, 1.6))
-
-ENDS = {
-    "one end": ((-2.0, None), (True, False)),
-    "the other end": ((None, 2.0), (False, True)),
-    "two free ends": ((-2.0, 2.0), (True, True)),
-    "end and wall": ((-2.0, 2.0), (True, False)),
-    "wall and end": ((-2.0, 2.0), (False, True)),
-}
 
 DEPTHS = np.array([0.0, 0.02, 0.1, 0.3, 1.0, 3.0])
 

@@ -22,12 +22,12 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.polynomial import chebyshev
 from numpy.polynomial.legendre import leggauss
 
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
+from viscontact.mechanics.halfspace.log_chebyshev import LogChebyshev
 from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.mechanics.halfspace.stack_waves import stack_waves
 from viscontact.mechanics.halfspace.strip import surface_panels
@@ -35,6 +35,7 @@ from viscontact.mechanics.halfspace.strip import surface_panels
 #: Largest wave number times the uppermost thickness that feels the layer, number of wave numbers at
 #: which G is found, Chebyshev's in ln(k h + SHIFT).
 SHORTEST, WAVES, SHIFT = 16.0, 22, 0.25
+SERIES = LogChebyshev(SHIFT, SHORTEST + SHIFT, WAVES)
 
 #: Elements at the edge, growth from one to the next, and largest ones, in uppermost thicknesses: of
 #: the part of the section near the end, and beyond.
@@ -67,7 +68,7 @@ class LayerTable:
 
     def weights(self, waves: Floats) -> Floats:
         """Weights of coefficients, then of no limit, in G at w = k W; (waves, coefficients)."""
-        powers = chebyshev.chebvander(_scaled(waves * self.thickness), WAVES - 1)
+        powers = SERIES.powers(waves * self.thickness + SHIFT)
         return np.column_stack([powers, np.zeros(len(waves))])
 
     @property
@@ -76,24 +77,13 @@ class LayerTable:
         return np.concatenate([self.coefficients, np.zeros((1, *self.coefficients.shape[1:]))])
 
 
-def _scaled(waves: Floats) -> Floats:
-    """Places from -1 to 1 of wave numbers times the uppermost thickness."""
-    low, high = np.log(SHIFT), np.log(SHORTEST + SHIFT)
-    return np.asarray((2 * np.log(waves + SHIFT) - low - high) / (high - low))
-
-
 @lru_cache(maxsize=16)
 def layer_table(stack: ElasticStack, half_length: float, *, odd: bool) -> LayerTable:
     """What two free faces add under loads that are even or odd about the middle of layers."""
     top = stack.layers[0]
     added = _adder(stack, half_length, odd=odd)
-    angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
-    low, high = np.log(SHIFT), np.log(SHORTEST + SHIFT)
-    waves = np.exp((low + high) / 2 + (high - low) / 2 * np.cos(angles)) - SHIFT
-    found = np.array([added(wave / top.thickness) for wave in waves])
-    transform = 2 / WAVES * np.cos(np.outer(np.arange(WAVES), angles))
-    transform[0] /= 2
-    coefficients = np.tensordot(transform, found, axes=1)
+    found = np.array([added(wave / top.thickness) for wave in SERIES.waves - SHIFT])
+    coefficients = SERIES.coefficients(found)
     tail = np.abs(coefficients[-2:]).sum(axis=0).max()
     error = float(tail / np.abs(found).max())
     return LayerTable(surface_panels(), coefficients, top.thickness / half_length, error)

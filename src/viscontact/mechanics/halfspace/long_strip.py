@@ -9,10 +9,10 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.halfspace.log_chebyshev import LogChebyshev
 from viscontact.mechanics.halfspace.strip import LONGEST_WAVES, LOWEST_WAVE, freeing_loads
 
 #: Chebyshev's places of ln k W from the longest wave to the lowest one of `strip`.
@@ -29,29 +29,24 @@ class LongLoads:
 
     def loads(self, wave: float) -> tuple[Floats, Floats]:
         """Matrices of the load on the faces and of the stress by it above, at w = k W."""
-        low, high = np.log(self.longest), np.log(LOWEST_WAVE)
-        place = np.array([(2 * np.log(wave) - low - high) / (high - low)])
-        powers = chebyshev.chebvander(place, WAVES - 1)[0]
+        powers = _series(self.longest).powers(np.array([wave]))[0]
         return np.tensordot(powers, self.faces, axes=1), np.tensordot(powers, self.tops, axes=1)
 
 
 def longest_wave(*, odd: bool) -> float:
-    """K W of the longest wave under even or odd pressures."""
+    """Product k W of the longest wave under even or odd pressures."""
     return LONGEST_WAVES[odd]
 
 
 @lru_cache(maxsize=4)
 def long_loads(poisson_ratio: float, *, odd: bool) -> LongLoads:
     """Loads under even or odd pressures, for a constant Poisson's ratio."""
-    angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
-    longest = longest_wave(odd=odd)
-    middle, half = np.log(longest * LOWEST_WAVE) / 2, np.log(LOWEST_WAVE / longest) / 2
-    sign = -1.0 if odd else 1.0
-    waves = np.exp(middle + half * np.cos(angles))
-    parts = [freeing_loads(wave, poisson_ratio, sign) for wave in waves]
-    transform = 2 / WAVES * np.cos(np.outer(np.arange(WAVES), angles))
-    transform[0] /= 2
-    faces, tops = (
-        np.tensordot(transform, np.array([part[k] for part in parts]), axes=1) for k in (1, 2)
-    )
+    longest, sign = longest_wave(odd=odd), -1.0 if odd else 1.0
+    series = _series(longest)
+    parts = [freeing_loads(wave, poisson_ratio, sign) for wave in series.waves]
+    faces, tops = (series.coefficients(np.array([part[k] for part in parts])) for k in (1, 2))
     return LongLoads(faces, tops, longest)
+
+
+def _series(longest: float) -> LogChebyshev:
+    return LogChebyshev(longest, LOWEST_WAVE, WAVES)

@@ -1,4 +1,4 @@
-"""What free ends add to contacts that repeat along them, with a period l along y.
+"""Displacement that free ends add under contacts that repeat along them, with a period l in y.
 
 The pressure is a sum of the waves k = 2πm/l, of which each has the operator of a body that goes on
 along y (`free_end`, `strip`), and of the mean along y, k = 0, which has that of plane strain

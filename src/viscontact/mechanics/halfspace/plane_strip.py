@@ -1,4 +1,4 @@
-"""What two free faces add where nothing varies along them: a strip in plane strain.
+"""Strip in plane strain: displacement that two free faces add to that of the mirrored half-plane.
 
 This is the operator G of `strip` at k = 0, in units of its half length W, with its kernels
 
@@ -21,11 +21,13 @@ import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.halfspace.strip import cosine_transform, face_of_strips, surface_panels
+from viscontact.mechanics.halfspace.strip import (
+    SHORTEST,
+    cosine_transform,
+    face_of_strips,
+    surface_panels,
+)
 from viscontact.mechanics.halfspace.strip_slab import slab
-
-#: Entries nearer to a face than this, in W, do not count in the stated error.
-SHORTEST = 1e-4
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,17 +32,18 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy  # its special functions are imported at their first use
-from numpy.polynomial import chebyshev
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
+from viscontact.mechanics.halfspace.log_chebyshev import LogChebyshev
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
 from viscontact.mechanics.halfspace.strip_slab import slab
 
 #: Range of k W in which faces act on each other and G is tabulated, and number of the places in it,
 #: Chebyshev's in ln k W. Above, each face is the end of a body that goes on.
 LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 18
+SERIES = LogChebyshev(LOWEST_WAVE, HIGHEST_WAVE, WAVES)
 
 #: Lowest k W at which loads on the faces are solved, even and odd ones, which grow as 1/(k W), with
 #: the error of the kernels (`long_strip`).
@@ -84,19 +85,19 @@ class StripTable:
     def weights(self, waves: Floats) -> Floats:
         """Weights of coefficients, then of the limit, in G at w = k W; (waves, coefficients)."""
         inside = np.maximum(waves, LOWEST_WAVE)
-        powers = chebyshev.chebvander(_scaled(inside), WAVES - 1) / inside[:, None]
+        powers = SERIES.powers(inside) / inside[:, None]
         # Towards longer waves G - limit/w is nearly a parabola.
         long = waves < LOWEST_WAVE
         if long.any():
             known = LOWEST_WAVE * np.array([1.0, 2.0, 4.0])
-            through = chebyshev.chebvander(_scaled(known), WAVES - 1) / known[:, None]
+            through = SERIES.powers(known) / known[:, None]
             powers[long] = polynomial_weights(known, waves[long]) @ through
         return np.column_stack([powers, 1 / waves])
 
     def chebyshev(self, wave: float) -> Floats:
         """Weights of the coefficients of `faces` and `tops` at w = k W."""
         inside = min(max(wave, LOWEST_WAVE), HIGHEST_WAVE)
-        return np.asarray(chebyshev.chebvander(_scaled(np.array([inside])), WAVES - 1)[0])
+        return np.asarray(SERIES.powers(np.array([inside]))[0])
 
     def loads(self, wave: float) -> tuple[Floats, Floats]:
         """Matrices of the load on the faces and of the stress by it above, at w = k W."""
@@ -122,12 +123,6 @@ def polynomial_weights(known: Floats, places: Floats) -> Floats:
     return np.asarray(vander(scaled[1], count) @ np.linalg.inv(vander(scaled[0], count)))
 
 
-def _scaled(waves: Floats) -> Floats:
-    """Places from -1 to 1 of the logarithm of k W."""
-    low, high = np.log(LOWEST_WAVE), np.log(HIGHEST_WAVE)
-    return np.asarray((2 * np.log(waves) - low - high) / (high - low))
-
-
 @lru_cache(maxsize=8)
 def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     """What two free faces add under even or odd loads, for a constant Poisson's ratio.
@@ -144,24 +139,18 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     """
     sign = -1.0 if odd else 1.0
     panels = surface_panels()
-    angles = np.pi * (np.arange(WAVES) + 0.5) / WAVES
-    middle, half = np.log(LOWEST_WAVE * HIGHEST_WAVE) / 2, np.log(HIGHEST_WAVE / LOWEST_WAVE) / 2
-    waves = np.exp(middle + half * np.cos(angles))
+    waves = SERIES.waves
     parts = [_added(wave, poisson_ratio, sign) for wave in waves]
     raw = np.array([wave * added for wave, (added, _, _) in zip(waves, parts, strict=True)])
     limit = _plate(poisson_ratio, panels.places, odd=odd)
     # The load that is farther from the face feels less of what is left out there.
     kept = np.triu(raw) + np.triu(raw, 1).swapaxes(1, 2) - limit
-    transform = 2 / WAVES * np.cos(np.outer(np.arange(WAVES), angles))
-    transform[0] /= 2
-    coefficients = np.tensordot(transform, kept, axes=1)
+    coefficients = SERIES.coefficients(kept)
     known = panels.places > SHORTEST
     skew = np.abs(raw - raw.swapaxes(1, 2))[:, known][:, :, known].max()
     tail = np.abs(coefficients[-2:])[:, known][:, :, known].sum(axis=0).max()
     largest = np.abs(raw).max()
-    freed, sent = (
-        np.tensordot(transform, np.array([part[k] for part in parts]), axes=1) for k in (1, 2)
-    )
+    freed, sent = (SERIES.coefficients(np.array([part[k] for part in parts])) for k in (1, 2))
     error = float((skew + tail) / largest)
     return StripTable(panels, coefficients, limit, error, freed, sent, face_of_strips().panels)
 

@@ -50,8 +50,9 @@ COUNTED, COUNTED_TOLERANCE, MIDDLES = (
     (0.5, 0.4, 0.6),
 )
 
-#: Distance from the root to the instant of the event, in tolerances of the search: there a lost
-#: contact is lost for certain.
+#: Distance from the root to the instant of the event, in tolerances of the search: there contact is
+#: lost in the search. In the run, which is within the solver's tolerance of it, one cell may still
+#: bear 1e-10 of the largest force.
 LOST_MARGIN = 3.0
 
 #: Requested error of steps by which the hereditary integral of the search is planned [-].
