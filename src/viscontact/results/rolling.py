@@ -2,18 +2,46 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import xarray as xr
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.results.descriptions import describe
 from viscontact.results.recorded_case import case_of
-from viscontact.results.variables import error_name, per_length
+from viscontact.results.variables import CURVES, FRICTION_FIELDS, error_name, per_length
+
+#: Relative difference of creepages that are one.
+SAME = 1e-9
 
 
 def has_creepages(results: xr.Dataset) -> bool:
     """True for a result of steady motion with tractions over the creepage."""
     return "creepage" in results.dims
+
+
+def at_creepage(results: xr.Dataset, creepage: float) -> xr.Dataset:
+    """Result at one of its creepages, as of a run at this one; ValueError if it is none of them."""
+    known = results["creepage"].values if has_creepages(results) else np.empty(0)
+    found = np.flatnonzero(np.isclose(known, creepage, rtol=SAME, atol=0.0))
+    if not found.size:
+        listed = ", ".join(f"{each:g}" for each in known.tolist()) or "none"
+        raise ValueError(
+            f"creepage: must be one of those of the result ({listed}), got {creepage:g}"
+        )
+    chosen = results.isel(creepage=found[:1])
+    names = {*CURVES, *map(error_name, CURVES), *FRICTION_FIELDS}
+    contact = [name for name in chosen.data_vars if name not in names]
+    single = {
+        name: chosen[name].isel(creepage=0, drop=True)
+        for name in contact
+        if "creepage" in chosen[name].dims
+    }
+    case = case_of(results)
+    case = case | {"motion": case["motion"] | {"creepage": describe(chosen["creepage"].values)}}
+    return chosen.assign(single).assign_attrs(case=json.dumps(case))
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +64,8 @@ def traction_curves(results: xr.Dataset) -> TractionCurves:
     ordered = results.sortby(["speed", "creepage"])
     name = f"tangential_force_{results.attrs['along']}"
     coefficient = float(case_of(results)["friction"]["coefficient"])
-    carried = coefficient * ordered["force"].values[:, None]
+    force = ordered["force"].values
+    carried = coefficient * (force if force.ndim == 2 else force[:, None])
     parts: Floats = -ordered[name].values / carried
     known = error_name(name) in ordered
     errors = ordered[error_name(name)].values / carried if known else np.full(parts.shape, np.nan)

@@ -53,8 +53,20 @@ RUN_AXES: dict[str, RunAxis] = {axis.name: axis for axis in (TIME, SPEED)}
 
 
 def run_axis(results: Result) -> RunAxis:
-    """Return the axis of a result."""
-    return SPEED if "speed" in results.dims else TIME
+    """Return the axis of a result; refuse one of several pressures at each speed."""
+    if "speed" not in results.dims:
+        return TIME
+    if has_contacts_over_creepage(results):
+        raise ValueError(
+            "creepage: each creepage of these bodies, which are coupled, has a contact of its own; "
+            "choose one, as in results.viscontact.at_creepage(0.01)"
+        )
+    return SPEED
+
+
+def has_contacts_over_creepage(results: Result) -> bool:
+    """True for coupled bodies whose contacts, too, are over the creepage."""
+    return "force" in results and "creepage" in results["force"].dims
 
 
 def in_order(results: xr.Dataset) -> xr.Dataset:

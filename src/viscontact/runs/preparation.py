@@ -55,11 +55,10 @@ def analysis_of(problem: Problem, threads: int = 1, *, errors: bool) -> Analysis
     if isinstance(problem, Case) and problem.leakage:
         fluid = leakage.CaseLeakage(problem.leakage, problem.tolerance)
     if isinstance(motion := problem.motion, SteadyMotion):
-        return runs.OverSpeed(
-            steady_motion.prepare(steady_motion.steady_problem(problem, motion), threads),
-            errors,
-            fluid,
+        posed = steady_motion.refuse_several_pressures(
+            steady_motion.steady_problem(problem, motion)
         )
+        return runs.OverSpeed(steady_motion.prepare(posed, threads), errors, fluid)
     return OverTime(prepare_run(problem, threads), errors, fluid)
 
 

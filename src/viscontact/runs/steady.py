@@ -18,6 +18,7 @@ from viscontact.bodies.loads.temperature import TemperatureHistory
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.problem.problem_from_arguments import contact_problem
+from viscontact.runs.coupled_creepages import at_each_creepage, over_creepages
 from viscontact.runs.over_speed import OverSpeed
 from viscontact.runs.solving import solve
 from viscontact.simulation.steady_motion.preparation import prepare
@@ -116,7 +117,9 @@ def steady(  # noqa: PLR0913
         ``traction_dissipation`` [W], the power lost in the bodies under the tractions, beside
         ``dissipation`` under the pressure; over (speed or field_speed, creepage, x, y)
         ``traction_x``, ``traction_y``, ``slip_x``, ``slip_y``, ``slip_state`` and
-        ``friction_work``.
+        ``friction_work``. Of coupled bodies under several creepages, each of which has a pressure
+        of its own, all that is over the speed is over ``creepage``, too;
+        ``ds.viscontact.at_creepage(0.01)`` is the result at one of them, which figures take.
 
         On chosen grids the fields of all speeds are on the smallest grid that holds their grids;
         beyond its own, pressure is 0, and gap and displacement are NaN. On a fluid the approach is
@@ -152,8 +155,8 @@ def steady(  # noqa: PLR0913
     displacement grows backwards by the creepage times the way, from the leading edge on; it slips
     where this would take more than friction times the pressure (Carter 1926). Where pressure and
     tractions are coupled (two bodies that differ, not of Poisson's ratio 1/2) they are solved
-    together, of elastic half-spaces and at one creepage, which has a pressure of its own (Bufler
-    1959); otherwise ``Friction(..., coupling=False)`` neglects it.
+    together, of elastic half-spaces, with a pressure of its own at each creepage (Bufler 1959);
+    otherwise ``Friction(..., coupling=False)`` neglects it.
 
     References
     ----------
@@ -191,5 +194,10 @@ def steady(  # noqa: PLR0913
         adhesion=adhesion,
         friction=friction,
     )
-    problem = steady_problem(contact, motion)
-    return solve(OverSpeed(prepare(problem, threads), errors), report)
+    setup = prepare(steady_problem(contact, motion), threads)
+    if not setup.problem.has_several_pressures:
+        return solve(OverSpeed(setup, errors), report)
+    parts = []
+    for each in at_each_creepage(setup):
+        parts.append(solve(OverSpeed(each, errors), report))  # warns as from here
+    return over_creepages(setup, parts)

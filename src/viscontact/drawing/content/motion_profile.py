@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.drawing.content.panel import Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_motion import contact_edges
+from viscontact.results.run_axis import run_axis
 from viscontact.results.stored_contact import cells_in_contact
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
@@ -23,6 +24,7 @@ def motion_panel(results: xr.Dataset, speeds: ArrayLike | None, at: float) -> Pa
         raise ValueError(
             "motion_profile: the figure needs a result of steady motion with fields, from steady()"
         )
+    run_axis(results)  # refuses several pressures at each speed
     along = str(results.attrs["along"])
     line = {"y" if along == "x" else "x": at}
     fields = (results["pressure"], cells_in_contact(results))

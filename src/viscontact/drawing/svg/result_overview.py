@@ -19,7 +19,7 @@ from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel
 from viscontact.results.formatting import format_scalar
-from viscontact.results.run_axis import in_order, run_axis
+from viscontact.results.run_axis import has_contacts_over_creepage, in_order, run_axis
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.snapshots import labels_of
 from viscontact.results.summary import headline
@@ -34,6 +34,10 @@ _ARROW = 0.15
 
 def result_overview(ds: xr.Dataset) -> Overview:
     """Make the overview of a result."""
+    if has_contacts_over_creepage(ds):
+        creepages = ", ".join(f"{100 * each:g} %" for each in ds["creepage"].values.tolist())
+        lead = f"Each creepage ({creepages}) has a contact of its own: at_creepage(...) shows one."
+        return Overview(_title(ds), [], lead=lead)
     axis = run_axis(ds)
     needed = [axis.name, *(name for name in shown_in(Place.CARD) if name in REQUIRED)]
     missing = [name for name in needed if name not in ds.variables]

@@ -58,6 +58,24 @@ class SteadyProblem:
             return False
         return (self.point.tilt_x, self.point.tilt_y)[self.axis] is None
 
+    @property
+    def has_several_pressures(self) -> bool:
+        """True for coupled bodies at more than one creepage, each of which has its pressure."""
+        return len(self.motion.creepages) > 1 and self.contact.is_coupled
+
+
+def refuse_several_pressures(problem: SteadyProblem) -> SteadyProblem:
+    """The problem; refuse several pressures at each speed, where a result holds one."""
+    if problem.has_several_pressures:
+        raise ValueError(
+            "creepage: pressure and tractions of these bodies are coupled, so that each creepage "
+            "has a pressure of its own, and a run directory holds one at each speed; got "
+            f"{len(problem.motion.creepages)} creepages; give one, and the others in runs of their "
+            "own (viscontact run CASE --vary motion.creepage=1%,2%), or compute them in Python "
+            "(viscontact.steady), or give coupling=False, which neglects it"
+        )
+    return problem
+
 
 def steady_problem(contact: Problem, motion: SteadyMotion) -> SteadyProblem:
     """Check a problem of steady motion and complete it."""
@@ -117,23 +135,15 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
             "roll; leave friction and creepage out"
         )
     if contact.is_coupled:
-        _check_coupled(contact, motion)
+        _check_coupled(contact)
 
 
-def _check_coupled(contact: Problem, motion: SteadyMotion) -> None:
-    """Refuse coupled bodies that creep or have layers, or whose pressure there would be many of."""
+def _check_coupled(contact: Problem) -> None:
+    """Refuse coupled bodies that creep or have layers."""
     if not contact.surface.creep.is_elastic:
         refuse_coupled(contact, "in steady motion of bodies that creep")
     if any(isinstance(body, Layered) for body in contact.bodies):
         refuse_coupled(contact, "in steady motion over layers")
-    if len(motion.creepages) > 1:
-        raise ValueError(
-            "creepage: pressure and tractions of these bodies are coupled, so that each creepage "
-            f"has a pressure of its own, and a result holds one at each speed; got "
-            f"{len(motion.creepages)} creepages; give one, and the others in runs of their own "
-            "(viscontact run CASE --vary motion.creepage=1%,2%), or coupling=False, which neglects "
-            "it"
-        )
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:
