@@ -10,7 +10,12 @@ from verification.families.blunt_bodies import blunt_apex, rounded_punch, shrink
 from verification.families.eccentric_bodies import eccentric_ball, eccentric_ellipsoid
 from verification.families.ellipses import slender_ellipse, turned_ellipse
 from verification.families.exact_run import ExactRun, NotDrawnError
-from verification.families.gripping_bodies import pulled_body, shifted_body, turned_body
+from verification.families.gripping_bodies import (
+    coupled_body,
+    pulled_body,
+    shifted_body,
+    turned_body,
+)
 from verification.families.layered_bodies import covered_core, layered_ball, layered_cylinder
 from verification.families.load_programs import load_program
 from verification.families.punches import dent, eccentric_punch, punch
@@ -82,7 +87,10 @@ ADHERING: dict[str, Draw] = {
     each.__name__: each for each in (maugis_sphere, sticking_body, pulled_program)
 }
 
-FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT | GRIPPING | ADHERING
+#: Coupled bodies under friction, whose bars were chosen on seven draws of each of two sets.
+COUPLED: dict[str, Draw] = {each.__name__: each for each in (coupled_body,)}
+
+FAMILIES = CALIBRATED | HELD_OUT | LAYERED | BLUNT | GRIPPING | ADHERING | COUPLED
 
 
 def drawn(

@@ -73,6 +73,25 @@ def turned_body(rng: np.random.Generator) -> ExactRun:
     return _gripped(rng, "turned", turn, 0.9)
 
 
+def coupled_body(rng: np.random.Generator) -> ExactRun:
+    """Any of these on a material whose pressure feels the tractions, against a rigid body."""
+    run = (pulled_body, shifted_body, turned_body)[rng.integers(3)](rng)
+    ratio, own = float(rng.uniform(0.0, 0.5)), run.material.poisson_ratio
+    assert own is not None  # of all laws that are drawn
+    # The contact grows with the root of the compliance, 1 - ν, at most.
+    larger = max(math.sqrt((1 - ratio) / (1 - own)), 1.0)
+    grid = replace(run.grid, size=tuple(larger * each for each in run.grid.size))
+    friction = vc.Friction(run.more["friction"].coefficient)
+    coupled = replace(
+        run,
+        name=f"coupled {run.name}",
+        material=replace(run.material, poisson_ratio=ratio),
+        grid=grid,
+        more=dict(run.more) | {"friction": friction},
+    )
+    return _compared(coupled)
+
+
 def _gripped(rng: np.random.Generator, name: str, load_along: Any, most: float) -> ExactRun:
     creep, a = random_creep(rng), contact_size(rng)
     if not creep.jumps:
@@ -104,6 +123,11 @@ def _gripped(rng: np.random.Generator, name: str, load_along: Any, most: float) 
         exact=lambda at: {},
         more=more,
     )
+    return _compared(run)
+
+
+def _compared(run: ExactRun) -> ExactRun:
+    """A run with its truth, of finer ones."""
     finer = FinerRuns(run, SCALARS, 2.0)
     return replace(run, exact=finer.values, uncertainty=finer.uncertainty)
 

@@ -15,6 +15,7 @@ from verification.families.drawn import (
     ADHERING,
     BLUNT,
     CALIBRATED,
+    COUPLED,
     GRIPPING,
     HELD_OUT,
     LAYERED,
@@ -95,6 +96,19 @@ def test_bars_hold_under_friction(campaign) -> None:
         campaign(f"friction, {each}")
     ratios = np.array([value.ratio for value in values_of(records)])
     # Measured: 99.0 % of 10 833 values of 180 runs.
+    assert np.mean(ratios >= 1) >= 0.95
+    assert np.mean(ratios < 1 / 3) <= 0.01
+
+
+@pytest.mark.slow
+def test_bars_hold_under_friction_of_coupled_bodies(campaign) -> None:
+    """A seed on which nothing was chosen; `docs/accuracy.md` has the figures of more runs."""
+    records = [solve(*each) for each in drawn(7310, tried(8, 60), tuple(COUPLED))]
+    assert not any("refused" in record for record in records)
+    for each in report(records):
+        campaign(f"friction of coupled bodies, {each}")
+    ratios = np.array([value.ratio for value in values_of(records)])
+    # Measured: 99.5 % of 7515 values of 109 runs.
     assert np.mean(ratios >= 1) >= 0.95
     assert np.mean(ratios < 1 / 3) <= 0.01
 
