@@ -34,11 +34,27 @@ def test_report_names_the_plane_of_the_stress_if_it_is_not_that_of_the_drawing()
     assert stress_text(ds, replace(found, plane="")).endswith("100 µm deep.")
 
 
-def test_nothing_is_shown_without_fields_or_of_layers() -> None:
+def test_nothing_is_shown_without_fields_or_of_layers_that_creep_differently() -> None:
     without = vc.simulate(BALL, RUBBER, LOAD, GRID, [0.0], fields="none", errors=False)
-    cover = vc.Layered([vc.Layer(5e-3, RUBBER)], base="rigid")
-    layered = vc.simulate(BALL, cover, LOAD, GRID, [0.0], errors=False)
+    creeping = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.45)
+    cover = vc.Layered([vc.Layer(5e-4, RUBBER), vc.Layer(5e-4, creeping)], base="rigid")
+    layered = vc.simulate(BALL, cover, LOAD, GRID, [0.0, 1.0], errors=False)
     assert [list(stress_chapter(each)) for each in (without, layered)] == [[], []]
+
+
+def test_report_names_the_layer_of_the_stress() -> None:
+    cover = vc.Layered([vc.Layer(1e-4, RUBBER), vc.Layer(5e-3, RUBBER)], base=RUBBER)
+    text = {}
+    for part, body in (("layer 2", cover), ("half-space", RUBBER)):
+        ds = vc.simulate(BALL, body, LOAD, GRID, [0.0], errors=False)
+        found = stress_below(ds)
+        assert found is not None
+        text[part] = stress_text(ds, found)
+        assert part in text[part]
+        assert "<img" in "".join(map(written, stress_chapter(ds)))
+    assert "body of layers" in text["layer 2"]
+    assert "layer" not in text["half-space"]
+    assert stress_text(ds, replace(found, depth=0.0)).endswith("at the surface.")
 
 
 def test_report_of_steady_traction_states_the_stress_at_the_largest_one() -> None:

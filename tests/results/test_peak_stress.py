@@ -61,6 +61,54 @@ def test_stress_below_a_ball_is_the_closed_form_within_its_bar() -> None:
     assert found[2].depth == close_to(depth, rel=0.01)
 
 
+def test_stress_in_layers_of_one_material_is_that_of_its_half_space() -> None:
+    """It lies 0.13 mm deep: in the second layer, in the first one on a rigid base or below both."""
+    exact, depth = below_ball()
+    thin = [vc.Layer(2e-5, STEEL), vc.Layer(4e-5, STEEL)]
+    for number, body in (
+        (2, vc.Layered([vc.Layer(5e-5, STEEL), vc.Layer(5e-4, STEEL)], base=STEEL)),
+        (1, vc.Layered([vc.Layer(1e-2, STEEL)], base="rigid")),
+        (3, vc.Layered(thin, base=STEEL)),
+    ):
+        grid = vc.Grid((50, 50), (0.6e-3, 0.6e-3))
+        ds = vc.simulate(vc.Paraboloid(RADIUS, RADIUS), body, vc.step(FORCE), grid, [0.0])
+        found = peak_stress(ds, "von_mises")
+        assert found.layer == number
+        assert abs(found.value - exact) < found.error < 0.05 * exact
+        assert found.depth == close_to(depth, rel=0.05)
+
+
+def pulled(body: vc.Material | vc.Layered, part: float) -> xr.Dataset:
+    """A ball that is pressed, then pulled by a part of what friction carries."""
+    return vc.simulate(
+        *(vc.Paraboloid(RADIUS, RADIUS), body, vc.step(FORCE)),
+        *(vc.Grid((50, 50), (0.6e-3, 0.6e-3)), [0.0, 1.0]),
+        friction=vc.Friction(0.3, coupling=False),
+        tangential=vc.TangentialHistory([1.0], force_x=[0.3 * FORCE * part]),
+    )
+
+
+def test_stress_under_friction_is_that_of_the_pulled_contact() -> None:
+    """The pressure is the same at both instants, and the stress is larger under the pull."""
+    ds = pulled(STEEL, 0.9)
+    found = peak_stress(ds, "von_mises")
+    pressed, gripped = (peak_stress(ds.isel(time=[k]), "von_mises") for k in (0, 1))
+    assert found.place == 1.0
+    assert found.value == gripped.value > 1.02 * pressed.value
+    assert found.plane == "x"
+
+
+def test_stress_in_a_stiff_coating_is_the_largest_of_a_fine_section() -> None:
+    """It jumps at the interface; at the surface or just above the base it is largest."""
+    stiff = vc.Material(vc.Elastic(4 * MODULUS), NU)
+    ds = pulled(vc.Layered([vc.Layer(4e-5, stiff)], base=STEEL), 0.9)
+    found = peak_stress(ds, "von_mises")
+    depths = np.concatenate([np.linspace(0, 4e-5, 41), np.linspace(4.0001e-5, 4e-4, 73)])
+    inside = vc.section_stresses(ds, depths, y=float(ds.y[25])).von_mises
+    assert found.layer == 1
+    assert found.value == close_to(float(inside.max()), rel=2e-3)
+
+
 def test_stress_below_a_cylinder_converges_to_the_closed_form_within_its_bar() -> None:
     exact, depth = below_cylinder(30.0 / 1e-3)
     found = []

@@ -86,6 +86,16 @@ class StressSource:
         """Depths of the lower sides of the layers [m]."""
         return () if self.stack is None else tuple(interface_depths(self.stack))
 
+    @property
+    def on_rigid_base(self) -> bool:
+        """True for layers that lie on a rigid base."""
+        return self.stack is not None and self.stack.base is None
+
+    @property
+    def follows_history(self) -> bool:
+        """True if the stresses follow from the loads of all instants before."""
+        return self.history is not None and bool(self.history.times.size)
+
     @cached_property
     def grid(self) -> Grid:
         """Cells of the pressure."""
@@ -166,7 +176,7 @@ class StressSource:
         """Usual depths of a section [m], on both sides of interfaces, to a rigid base at most."""
         if not self.interfaces:
             return np.linspace(0.0, deepest, DEPTHS)
-        if self.stack is not None and self.stack.base is None:
+        if self.on_rigid_base:
             deepest = min(deepest, self.interfaces[-1])
         inside = [depth for depth in self.interfaces if depth < deepest]
         found = []
@@ -178,7 +188,7 @@ class StressSource:
     def _loads(self, places: Sequence[int]) -> Floats:
         """Loads of the responses at stored instants by index; (responses, instants, nx, ny)."""
         stored = self.results["pressure"]
-        if self.history is None or not self.history.times.size:
+        if not self.follows_history:
             fields = [
                 sign * np.asarray(self.results[name].values[list(places)], dtype=np.float64)
                 for name, sign in zip(LOADS, self.signs, strict=False)
