@@ -110,7 +110,7 @@ def test_unknown_words_are_answered_with_the_nearest():
 
 
 def test_comments_of_a_file_stay_when_values_change():
-    text = "load:  # a step\n  force: 10 kN"
+    text = "load:  # a step\n  force: 10 kN\n"
     changed = yaml_source.with_overrides(text, {("load", "force"): "20 kN"})
     assert changed == "load:  # a step\n  force: 20 kN\n"
     ordered = yaml_source.rewritten("b: 2 m  # long\na: 1\nc: 0", {"a": 1, "b": "3 m"})

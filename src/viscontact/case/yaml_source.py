@@ -16,6 +16,7 @@ from ruamel.yaml.constructor import DuplicateKeyError
 from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning
 
 from viscontact.case.errors import KeyPath, SourceError
+from viscontact.case.yaml_scalars import written_over
 
 __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 
@@ -52,6 +53,9 @@ def parse_value(text: str) -> Any:
 
 def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
     """Write values into the text of a YAML file, keeping its comments."""
+    quickly = written_over(text, values)
+    if quickly is not None:
+        return quickly
     document = _load(text)
     for path, value in values.items():
         target = document
