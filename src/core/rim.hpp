@@ -1,22 +1,13 @@
-// Rim of a contact between cell centres: see rim_crossings.py and straight_edge.py, whose rules
-// these are, interval by interval.
+// Rim of a contact between cell centres: see rim_crossings.py, whose rules these are, interval by
+// interval, and rim_extent.py.
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "fields.hpp"
+#include "straight_edge.hpp"
 
 namespace viscontact {
-
-// Gaps or pressures next to a straight edge, along lines of the grid that cross it.
-struct EdgeLaw {
-    double threshold, first_growth, second_growth;
-    std::vector<double> slopes, offsets;
-
-    double distance(double first, double second, double third) const;
-    double offset(double slope) const;
-};
 
 // Where a contact recedes.
 struct Recession {
@@ -45,6 +36,10 @@ struct Extent {
     double squares, along_x, along_y;
     std::ptrdiff_t rows, columns;
 };
+
+// Measures a contact by the crossings of its rim, and the area between rim and chord per quarter
+// turn.
+Extent extent_of(const Field<Flag> &contact, const Rim &rim, double segment);
 
 // Locates the rim, and measures the contact in an inner block. Ends are distances to the body's
 // outline along x, shape (nx - 1, ny), and y, (nx, ny - 1); laws are those along x and y.
