@@ -65,5 +65,6 @@ def test_report_of_steady_traction_states_the_stress_at_the_largest_one() -> Non
     found = stress_below(ds)
     assert found is not None
     assert "at 100 mm/s and a creepage of 5 %" in stress_text(ds, found)
+    assert "drawing" not in stress_text(ds, replace(found, plane="y"))
     [gripped, free] = (peak_stress(ds.isel(creepage=[n]), "von_mises").value for n in (0, 1))
     assert found.value == gripped > 1.05 * free

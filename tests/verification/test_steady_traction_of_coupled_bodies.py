@@ -174,10 +174,3 @@ def test_error_bars_hold_where_the_force_passes_through_zero(creepage: float):
     names = ("tangential_force_y", "friction_power", "slip_fraction", "resistance_y")
     for name in (*names, "peak_pressure"):
         assert abs(found[name] - fine[name]) < found[f"{name}_error"]
-
-
-def test_what_is_not_supported_is_refused_by_name():
-    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3)
-    given = vc.Paraboloid(0.01, 0.01), rubber, vc.step(1.0, **HELD), 1.0
-    with pytest.raises(ValueError, match=r"coupled, which is not supported in steady motion of"):
-        vc.steady(*given, friction=0.3, creepage=0.01)

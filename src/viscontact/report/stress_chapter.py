@@ -10,12 +10,14 @@ import xarray as xr
 from viscontact.drawing.svg.html import element
 from viscontact.report.still_figures import still_figures
 from viscontact.results.formatting import format_with_error
+from viscontact.results.fretting import is_gripping
 from viscontact.results.peak_stress import (
     PeakStress,
     peak_stress,
     row_of_largest_pressure,
 )
 from viscontact.results.recorded_case import has_ends, is_layered
+from viscontact.results.rolling import has_creepages
 from viscontact.results.run_axis import run_axis
 from viscontact.results.stress_source import at_largest_traction, stress_source
 from viscontact.units.formatting import format_quantity
@@ -50,7 +52,10 @@ def stress_text(ds: xr.Dataset, found: PeakStress) -> str:
     value = format_with_error(found.value, found.error, "Pa")
     place = run_axis(ds).place(found.place)
     deep = f"{format_quantity(found.depth, 'm', 2)} deep" if found.depth else "at the surface"
-    plane = f" on the plane along {found.plane}; the drawing is across the contact"
+    # Under friction the drawing of a round contact is along the pull.
+    grips = is_gripping(ds) or has_creepages(ds)
+    drawn = "" if grips else "; the drawing is across the contact"
+    plane = f" on the plane along {found.plane}{drawn}"
     pulled = at_largest_traction(ds)
     if "creepage" in pulled.coords:
         place += f" and a creepage of {100 * float(pulled['creepage']):.3g} %"

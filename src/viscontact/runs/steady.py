@@ -155,8 +155,8 @@ def steady(  # noqa: PLR0913
     displacement grows backwards by the creepage times the way, from the leading edge on; it slips
     where this would take more than friction times the pressure (Carter 1926). Where pressure and
     tractions are coupled (two bodies that differ, not of Poisson's ratio 1/2) they are solved
-    together, of elastic half-spaces, with a pressure of its own at each creepage (Bufler 1959);
-    otherwise ``Friction(..., coupling=False)`` neglects it.
+    together, of half-spaces, with a pressure of its own at each creepage (Bufler 1959); of layers
+    ``Friction(..., coupling=False)`` neglects it.
 
     References
     ----------

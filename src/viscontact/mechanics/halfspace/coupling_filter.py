@@ -32,13 +32,13 @@ class CouplingFilter:
         self,
         shape: tuple[int, int],
         lengths: tuple[int, int],
-        symbol: tuple[Floats, Floats],
+        symbol: tuple[Numbers, Numbers],
         transforms: Transforms | None = None,
         within: Callable[[tuple[int, int]], CouplingFilter] | None = None,
     ) -> None:
         #: Makes the same maps on a smaller block.
         self.within = within or (lambda shape: self)
-        #: Imaginary parts of the spectra of X and Y.
+        #: Spectra of X and Y over the imaginary unit: real at rest, as these kernels are odd.
         self.shape, self._lengths, self._symbol = shape, lengths, symbol
         self._transforms = transforms or transforms_by(fastest_transforms())
 

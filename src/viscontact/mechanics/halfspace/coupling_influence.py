@@ -47,14 +47,14 @@ class CouplingTables:
 
 def coupling_tables(grid: Grid) -> CouplingTables:
     """Coefficients between all cells of a grid that is not periodic along both axes."""
+    (nx, ny), (cell_x, cell_y) = grid.shape, grid.cell_size
+    x: Floats = np.arange(nx, dtype=np.float64)[:, None] * cell_x
+    y: Floats = np.arange(ny, dtype=np.float64)[None, :] * cell_y
     if grid.periodic[0]:
-        return CouplingTables(*_periodic_tables(grid.shape, grid.cell_size))
+        return CouplingTables(*periodic_coupling(nx, y, grid.cell_size))
     if grid.periodic[1]:
-        across, along = _periodic_tables(grid.shape[::-1], grid.cell_size[::-1])
+        across, along = periodic_coupling(ny, x.T, grid.cell_size[::-1])
         return CouplingTables(along.T, across.T)
-    cell_x, cell_y = grid.cell_size
-    x: Floats = np.arange(grid.shape[0], dtype=np.float64)[:, None] * cell_x
-    y: Floats = np.arange(grid.shape[1], dtype=np.float64)[None, :] * cell_y
     turned = coupling_coefficient(y.T, x.T, (cell_y, cell_x)).T
     return CouplingTables(coupling_coefficient(x, y, grid.cell_size), turned)
 
@@ -70,14 +70,11 @@ def _corner(x: Floats, y: Floats) -> Floats:
     return np.asarray(y * np.log(np.hypot(x, y)) + x * angle)
 
 
-def _periodic_tables(
-    shape: tuple[int, int], cell_size: tuple[float, float]
-) -> tuple[Floats, Floats]:
-    """X and Y of cells that repeat along x after the whole grid."""
-    (nx, ny), (dx, dy) = shape, cell_size
-    y: Floats = np.arange(ny, dtype=np.float64)[None, :] * dy
+def periodic_coupling(nx: int, y: Floats, cell_size: tuple[float, float]) -> tuple[Floats, Floats]:
+    """X and Y [m] at offsets y [m] from cells that repeat along x after nx of them."""
+    (dx, dy), ny = cell_size, y.size
     if nx == 1:  # strips: the mean over x of the closed sum is π sign(y)/l
-        return np.zeros((1, ny)), dy * np.sign(y)
+        return np.zeros((1, ny)), np.clip(2 * y, -dy, dy)
     offsets = (np.arange(nx) + nx // 2) % nx - nx // 2
     x: Floats = offsets.astype(np.float64)[:, None] * dx
     along, across = np.zeros((nx, ny)), np.zeros((nx, ny))
@@ -94,7 +91,7 @@ def _periodic_tables(
         along += coupling_coefficient(there, y, (dx, dy))
         across += coupling_coefficient(y.T, there.T, (dy, dx)).T
     along[(offsets == 0) | (2 * offsets == -nx)] = 0.0  # odd, and of both neighbours
-    across[:, 0] = 0.0
+    across[:, y[0] == 0] = 0.0
     return along, across
 
 

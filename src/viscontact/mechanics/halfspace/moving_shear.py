@@ -92,7 +92,7 @@ def moving_shear_convolution(
                 table += moving_influence_table(*cells, moving, axis, own[part], parity)
         if part == "direct" and not grid.has_datum:
             table -= _drift(shape, grid.cell_size, axis, compliance)
-        return _signed_spectrum(table, (lengths[0], lengths[1]), axis, parity)
+        return signed_spectrum(table, (lengths[0], lengths[1]), axis, parity)
 
     direct = spectrum("direct", shear.direct)
     along, across_too, cross = (
@@ -214,7 +214,7 @@ def _drift(
     return offsets[:, None] if axis == 0 else offsets[None, :]
 
 
-def _signed_spectrum(table: Floats, lengths: tuple[int, int], axis: int, parity: int) -> Complexes:
+def signed_spectrum(table: Floats, lengths: tuple[int, int], axis: int, parity: int) -> Complexes:
     """Spectrum of a table with signed offsets along an axis, even or odd across."""
     across = 1 - axis
     table = wrapped(table, across, lengths[across], parity)

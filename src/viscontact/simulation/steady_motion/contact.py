@@ -47,6 +47,8 @@ class SteadyContact:
     #: Displacement into the surface by tractions of coupled bodies [m], and these tractions.
     lift: Floats | None = None
     traction: RollingTraction | None = None
+    #: Displacement along the surface by their pressure [m], (2, nx, ny).
+    along: Floats | None = None
 
     @property
     def grid(self) -> Grid:
@@ -72,6 +74,11 @@ class SteadyContact:
     def gap(self) -> Floats:
         """Gap on the whole grid [m]."""
         return self.domain.expand_by_symmetry(self.solution.gap)
+
+    def stretch_over(self, axis: int) -> Floats:
+        """Displacement along the surface by the pressure, less that a cell ahead [m]."""
+        assert self.along is not None  # of coupled bodies
+        return np.asarray(self.along - np.roll(self.along, -1, axis=1 + axis))
 
     @property
     def displacement(self) -> Floats:

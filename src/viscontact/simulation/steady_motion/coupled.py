@@ -2,7 +2,7 @@
 
 As at rest (`simulation.transient.coupled_contact`), the normal contact in the gap that the last
 tractions leave, and the tractions under its pressure, take turns until the displacement by the
-tractions stays. Elastic bodies respond in motion as at rest.
+tractions stays. Elastic bodies respond in motion as at rest, others by `moving_coupling`.
 """
 
 from __future__ import annotations
@@ -18,8 +18,10 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.friction.mixing import AndersonMixing
 from viscontact.mechanics.halfspace.coupling_filter import CouplingSum, coupling_filter
+from viscontact.mechanics.halfspace.moving_coupling import moving_coupling_filter
 from viscontact.mechanics.rolling_traction import RollingTraction
 from viscontact.simulation.steady_motion.contact import Neighbour, SteadyContact, SteadySolver
+from viscontact.simulation.steady_motion.moving_law import moving_coupling
 from viscontact.simulation.steady_motion.traction import TractionSolver
 from viscontact.units.formatting import format_quantity
 
@@ -44,7 +46,7 @@ class CoupledSolver:
         self, speed: float, grid: Grid, tolerance: float, near: Neighbour | None = None
     ) -> SteadyContact:
         """Solve at a speed [m/s], from a contact on other cells at a similar speed if given."""
-        coupling, mixing = Coupling(self.solver, grid), AndersonMixing()
+        coupling, mixing = Coupling(self.solver, grid, speed, self.tractions), AndersonMixing()
         lift, wanted = np.zeros(grid.shape), max(tolerance, FIRST_TOLERANCE)
         work = 0.0
         for _ in range(MOST_ALTERNATIONS):
@@ -60,7 +62,7 @@ class CoupledSolver:
             error = change / max(float(np.abs(found.displacement).max()), np.finfo(float).tiny)
             if error <= tolerance and wanted <= tolerance:
                 solution = replace(found.solution, work=work)
-                return replace(found, solution=solution, traction=traction)
+                return replace(found, solution=solution, traction=traction, along=along)
             wanted = max(tolerance, min(wanted, FORCING * error))
             lift, near = mixing.next(lift, reached), found.neighbour
         at = format_quantity(speed, "m/s", 6)
@@ -73,19 +75,31 @@ class CoupledSolver:
 
 @dataclass(frozen=True, eq=False)
 class Coupling:
-    """Displacements by which pressure and tractions of elastic bodies act on each other."""
+    """Displacements by which pressure and tractions act on each other at a speed [m/s]."""
 
     solver: SteadySolver
     grid: Grid
+    speed: float
+    tractions: TractionSolver
 
     @cached_property
     def _maps(self) -> CouplingSum:
-        return CouplingSum([coupling_filter(self.grid, self.solver.transforms)])
+        transforms, problem = self.solver.transforms, self.solver.problem
+        if problem.contact.surface.creep.is_elastic:
+            return CouplingSum([coupling_filter(self.grid, transforms)])
+        extent = max(self.grid.size_about_origin)
+        compliance = moving_coupling(self.tractions.laws, self.speed, extent)
+        return CouplingSum(
+            [moving_coupling_filter(self.grid, compliance, problem.axis, transforms)]
+        )
 
     @cached_property
     def _compliance(self) -> float:
-        """Σ c J of both bodies, which subtract [1/Pa]."""
-        terms = self.solver.problem.contact.shear.terms
+        """Σ c J of elastic bodies, which subtract [1/Pa]; 1 of maps that have it [-]."""
+        contact = self.solver.problem.contact
+        if not contact.surface.creep.is_elastic:
+            return 1.0
+        terms = contact.shear.terms
         return sum(term.coupling * float(term.compliance(np.array(0.0))) for term in terms)
 
     def along(self, pressure: Floats) -> Floats:

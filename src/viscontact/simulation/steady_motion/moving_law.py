@@ -161,6 +161,7 @@ class ShearLaw:
     law: MovingLaw
     direct: float  # of the part of 1/r
     poisson: float  # of the part by κ
+    coupling: float  # of the part of the pressure; of the indenter it is subtracted
     layers: LayeredShear | None = None  # whose short waves these are
 
 
@@ -177,8 +178,16 @@ def shear_laws(problem: SteadyProblem, extents: tuple[float, float]) -> tuple[Sh
                 if place == 0
                 else _law_of_mate(problem, of_pressure, first, last)
             )
-            found.append(ShearLaw(law, term.direct, term.poisson, term.layers))
+            coupling = term.coupling if place == 0 else -term.coupling
+            found.append(ShearLaw(law, term.direct, term.poisson, coupling, term.layers))
     return tuple(found)
+
+
+def moving_coupling(laws: Sequence[ShearLaw], speed: float, extent: float) -> MovingCompliance:
+    """Compliance Σ c J by which pressure and tractions are coupled at a speed [m/s]."""
+    # Old creep shifts a line contact as a whole, which makes no difference.
+    found = joined([law.law.at(speed, extent).scaled(law.coupling) for law in laws])
+    return replace(found, drift=0.0)
 
 
 def moving_shear(laws: Sequence[ShearLaw], speed: float, extent: float) -> MovingShear:

@@ -139,9 +139,7 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
 
 
 def _check_coupled(contact: Problem) -> None:
-    """Refuse coupled bodies that creep or have layers."""
-    if not contact.surface.creep.is_elastic:
-        refuse_coupled(contact, "in steady motion of bodies that creep")
+    """Refuse coupled bodies that have layers."""
     if any(isinstance(body, Layered) for body in contact.bodies):
         refuse_coupled(contact, "in steady motion over layers")
 

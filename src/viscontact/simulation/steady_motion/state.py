@@ -79,6 +79,21 @@ def _resistances(
     return forces
 
 
+def _dissipation(problem: SteadyProblem, contact: SteadyContact, resistance: float) -> float:
+    """Power lost in the bodies but for that under tractions by themselves [W]."""
+    if contact.along is None or contact.traction is None:
+        return resistance * contact.speed
+    if problem.contact.surface.creep.is_elastic:
+        return 0.0
+    # The work of the pressure and, with the rule of trapezoids over the way of a cell, of the
+    # tractions on the displacement by the pressure.
+    traction, stretch, axis = contact.traction, contact.stretch_over(problem.axis), problem.axis
+    pair = np.stack([traction.traction_x[0], traction.traction_y[0]])
+    mean = (pair + np.roll(pair, -1, axis=1 + axis)) / 2
+    rate = contact.speed / contact.grid.cell_size[axis] * contact.grid.cell_area
+    return resistance * contact.speed + float((mean * stretch).sum()) * rate
+
+
 def state_of(
     problem: SteadyProblem, contact: SteadyContact, rim: Rim, against: Resistance, *, datum: bool
 ) -> ContactState:
@@ -119,7 +134,7 @@ def state_of(
         resistance_x=forces[0],
         resistance_y=forces[1],
         friction_coefficient=forces[axis] / force,
-        dissipation=(forces[axis] if contact.lift is None else 0.0) * contact.speed,
+        dissipation=_dissipation(problem, contact, forces[axis]),
         speed=contact.speed,
         temperature=problem.contact.constant_temperature,
     )

@@ -29,6 +29,10 @@ COUPLED_FORCE, COUPLED_POWER, COUPLED_BOUNDARY_CELLS = 10.0, 8.0, 2.0
 #: resistance over μ W a/R, times the square of the cells (at most 4.4 in 26 contacts).
 COUPLED_EXTENTS, COUPLED_RESISTANCE = 3.0, 4.0
 
+#: Least error of the power lost in them over μ W V times the creepage μ a/R, likewise: it is what
+#: the resistance takes less than slip, and is not zero on a grid where no body creeps.
+COUPLED_LOSS = 12.0
+
 
 def traction_bars(
     problem: SteadyProblem, fine: Measured, traction: RollingTraction, coarse: RollingTraction
@@ -93,6 +97,10 @@ def coupled_bars(
     least = COUPLED_RESISTANCE / square * friction.coefficient * slope
     for name, scale in ((f"resistance_{'xy'[axis]}", state.force), ("friction_coefficient", 1.0)):
         found[name] = np.maximum(bars[name], least * scale)
+    if not problem.contact.surface.creep.is_elastic:
+        slid = friction.coefficient * state.force * friction.coefficient * slope
+        lost = COUPLED_LOSS / square * slid + found[f"resistance_{'xy'[axis]}"]
+        found["dissipation"] = np.maximum(bars["dissipation"], lost * (state.speed or 0.0))
     return found
 
 
