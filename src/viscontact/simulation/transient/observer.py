@@ -8,16 +8,9 @@ from copy import copy
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from viscontact.backend.arrays import Bools
-from viscontact.backend.errors import DomainError
-from viscontact.backend.team import Team
 from viscontact.backend.transforms import largest_of
-from viscontact.bodies.grid import MIN_CELLS_ACROSS, Grid
 from viscontact.bodies.loads.history import LoadPoint
 from viscontact.mechanics.contact.body_edge import trace_outline
-from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.recession import ContactTrend
 from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.state import ContactState, Outcome
@@ -35,9 +28,7 @@ from viscontact.simulation.checks.material import (
     data_warnings,
     early_warnings,
 )
-from viscontact.simulation.checks.mesh import cells_across_spots, mesh_warnings
 from viscontact.simulation.checks.singularities import strain_of
-from viscontact.simulation.checks.steps import unreported_peak_warnings
 from viscontact.simulation.checks.temperature import diffusion_warnings
 from viscontact.simulation.checks.tested_limits import (
     Contact,
@@ -47,9 +38,12 @@ from viscontact.simulation.checks.tested_limits import (
     repeated,
 )
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
+from viscontact.simulation.transient.largest_contact import LargestContact
 from viscontact.simulation.transient.load_cycles import LoadCycleWork
 from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.solved_state import solved_state
 from viscontact.simulation.transient.step_solution import StepSolution
+from viscontact.simulation.transient.step_work import first_work, work_of_step
 from viscontact.simulation.transient.warning_rules import (
     geometry_of,
     loading_warnings,
@@ -59,13 +53,6 @@ from viscontact.units.formatting import format_quantity
 
 #: Growth of the largest pressure since the last check for corners that calls for another [-].
 PEAK_CHECK_RATIO = 1.1
-
-#: Force of bodies that adhere, over that without signs, below which it has no place [-].
-NO_FORCE = 1e-6
-
-#: Most by which the work of a step differs from that of the mean loads, over the product of the
-#: changes of load and approach [-]; and where the bodies are apart for a part of the step.
-MOST_OF_CHANGES, MOST_WHERE_APART = 0.25, 0.5
 
 
 class Observer:
@@ -92,10 +79,7 @@ class Observer:
         plain = run.problem.surface.creep.is_elastic or run.law is not None
         self._trend = None if plain else ContactTrend.at_first(run.grid, run.mirrored)
         self._cycles = LoadCycleWork(run.problem.history.load_cycles)
-        self._largest_area, self._cells_at_largest = 0.0, 0
-        self._largest: Bools | None = None  # its spots are not counted yet
-        self._spots_at_largest = 0.0
-        self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
+        self._largest = LargestContact()
         self._peak_checked = 0.0
 
     def copied(self) -> Observer:
@@ -139,20 +123,15 @@ class Observer:
         if self._warns:
             self._collect_warnings(step, solution, rim)
         totals = self._work, self._cycles.last_loss
-        state = _state(self._run, step, solution, rim, totals, moved, self._team)
+        state = solved_state(self._run, step, solution, rim, totals, moved, self._team)
         self._extents = self._extents.after(self._exceeded, state.contact_area, step.time)
         if self._events is not None:
             self._events.after(state)
         if self._passage is not None:
             passed = self._passage.after(state)
             self.warn(checks.adhesive_limits.front_warnings(passed, self._run.problem.data_times))
-        # Kept for the end: the mesh is judged at the largest contact, and a peak between
-        # requested times is reported.
-        if state.contact_area > self._largest_area:
-            self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
-            self._largest = solution.in_contact
-        if state.peak_pressure > self._peak and step.time >= self._run.problem.instants[0]:
-            self._peak, self._peak_time = state.peak_pressure, step.time
+        asked = step.time >= self._run.problem.instants[0]
+        self._largest = self._largest.after(state, asked=asked)
         self._before = solution
         return state
 
@@ -181,14 +160,13 @@ class Observer:
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
         """Add the new warnings; at the last state, the mesh is judged by the largest contact."""
-        self._peak_reported = max(self._peak_reported, state.peak_pressure)
-        mesh, unreported, moving = {}, {}, {}
-        if last and self._largest_area:
-            mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
-            unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
+        self._largest = self._largest.reported(state)
+        of_mesh, at_end = {}, {}
         if last:
-            moving = self._motion.warnings() | self._extents.at_end()
-        found = self._warnings.new(self._open, mesh, unreported | moving)
+            of_mesh = self._largest.mesh_warnings()
+            at_end = self._largest.peak_warnings() | self._motion.warnings()
+            at_end |= self._extents.at_end()
+        found = self._warnings.new(self._open, of_mesh, at_end)
         state = self.with_events(state)
         return replace(state, warnings=found) if found else state
 
@@ -200,14 +178,7 @@ class Observer:
 
     def refuse_coarse_mesh(self) -> None:
         """Raise DomainError at the end if the largest contact had fewer than four cells across."""
-        if not self._largest_area or self._cells_at_largest >= MIN_CELLS_ACROSS:
-            return
-        nx, ny = self._run.grid.shape
-        raise DomainError(
-            f"grid: only {self._cells_at_largest} cells lie across the run's largest contact and "
-            f"{MIN_CELLS_ACROSS} are the least (20 or more recommended); use more cells than "
-            f"{nx} x {ny} or a smaller grid.size"
-        )
+        self._largest.refuse_coarse_mesh(self._run.grid)
 
     def restart_data(self) -> RestartData:
         """Return the state after a step as plain data."""
@@ -221,10 +192,7 @@ class Observer:
             "point": self._point and vars(self._point),
             "trend": self._trend and self._trend.restart_data(),
             "cycles": self._cycles.restart_data(),
-            "largest_area": self._largest_area,
-            "cells_at_largest": self._cells_at_largest,
-            "spots_at_largest": self._cells_across_spots(),
-            "peak": [self._peak, self._peak_time, self._peak_reported],
+            "largest": self._largest.restart_data(),
             "peak_checked": self._peak_checked,
             "motion": self._motion.restart_data(),
             "events": self._events and self._events.restart_data(),
@@ -246,25 +214,13 @@ class Observer:
         trend = restart_data["trend"]
         self._trend = trend and ContactTrend.from_restart_data(trend)
         self._cycles.restore(restart_data["cycles"])
-        self._largest_area = restart_data["largest_area"]
-        self._cells_at_largest = restart_data["cells_at_largest"]
-        self._spots_at_largest = restart_data["spots_at_largest"]
-        self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
+        self._largest = LargestContact(**restart_data["largest"])
         self._peak_checked = restart_data["peak_checked"]
         self._motion.restore(restart_data["motion"])
         if self._events is not None:
             self._events.restore(restart_data["events"])
         if self._passage is not None:
             self._passage.restore(restart_data["passage"])
-
-    def _cells_across_spots(self) -> float:
-        """Cells across the spots of the largest contact, counted on demand."""
-        if self._largest is not None:
-            self._spots_at_largest = cells_across_spots(
-                self._largest, periodic=self._run.grid.periodic
-            )
-            self._largest = None
-        return self._spots_at_largest
 
     def _collect_warnings(self, step: TimeStep, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
@@ -320,106 +276,8 @@ class Observer:
         return corner_warnings(self._geometry, place, strain)
 
     def _work_of(self, point: LoadPoint, solution: StepSolution) -> float:
-        """Work over a step: exact while the load is held, and for all that is elastic."""
-        before, point_before = self._before, self._point
-        self._point, self._held = point, False
-        law = self._run.law
-        if before is None:  # every run starts with a jump
-            gained = (
-                0.0 if law is None else transient.adhesion_energy(law, self._run.grid, solution.gap)
-            )
-            return self._run.problem.compliance.instant * solution.energy - gained
-        travel = solution.motion - before.motion
-        of_load = float((before.resultants + solution.resultants) @ travel / 2)
-        if point == point_before:
-            self._held = True
-        if self._held or law is not None:
-            return of_load
-        # Where the load moves, force times approach is not exact, as an elastic contact's force is
-        # no straight function of its approach; a cycle in long steps would gain energy. Mean
-        # pressure times change of displacement, which moves with the body wherever there is
-        # pressure, is exact by reciprocity, however far the step goes.
-        mean = (before.pressure + solution.pressure) / 2
-        moved = solution.displacement - before.displacement
-        work = float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
-        if not self._run.problem.motion.stands:
-            return work
-        # Where the body creeps much within a step, pressure moves on while the load hardly does. By
-        # the means of the loads the work errs by at most half the product of both changes, for an
-        # elastic force δ^m by |1/2 - 1/(m + 1)| of it: a sixth under a cone. On the way without
-        # contact there is no work, on either side.
-        change = solution.resultants - before.resultants
-        apart = before.resultants[0] <= 0 or solution.resultants[0] <= 0
-        part = MOST_WHERE_APART if apart else MOST_OF_CHANGES
-        most = part * abs(float(change @ travel))
-        return min(max(work, of_load - most), of_load + most)
-
-
-def _state(
-    run: RunSetup,
-    step: TimeStep,
-    solution: StepSolution,
-    rim: Rim,
-    totals: tuple[float, float],
-    moved: dict[str, Any],
-    team: Team,
-) -> ContactState:
-    """State of a solution: `totals` are the work and the loss of a cycle [J].
-
-    `moved` are the scalars of motion, clocks and adhesion.
-    """
-    adheres, has_datum = run.law is not None, run.has_datum
-    grown = run.problem.thickening_at(step.time)
-    force = float(solution.resultants[0])
-    touching = bool(solution.in_contact.any()) if adheres else force > 0
-    eccentricity_x, eccentricity_y = (
-        _eccentricities(solution, rim.grid, adheres=adheres) if touching else (math.nan,) * 2
-    )
-    peak = max(solution.peak, 0.0)
-    # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
-    area = max(rim.area, force / peak if peak > 0 else 0.0) if touching else 0.0
-    load = line_load(solution.pressure, rim.grid)
-    return ContactState(
-        time=step.time if step.requested is None else step.requested,
-        pressure=solution.pressure,
-        gap=solution.gap,
-        displacement=solution.displacement,
-        in_contact=solution.in_contact,
-        line_load=load,
-        grid=rim.grid,
-        force=force,
-        eccentricity_x=eccentricity_x,
-        eccentricity_y=eccentricity_y,
-        approach=float(solution.motion[0]) - grown if has_datum else math.nan,
-        tilt_x=float(solution.motion[1]) if run.tilts_from_datum else math.nan,
-        tilt_y=float(solution.motion[2]),
-        contact_area=area,
-        contact_length=rim.length,
-        contact_width=rim.width,
-        peak_pressure=peak,
-        mean_pressure=min(force / area, peak) if area > 0 else 0.0,  # rounded
-        peak_line_load=peak_line_load(load, rim.grid, rim.length, team),
-        work=totals[0],
-        loss_per_cycle=totals[1],
-        time_error=solution.time_error,
-        iterations=solution.iterations,
-        residual=solution.residual,
-        cells_across=rim.cells_across,
-        outcome=solution.outcome,
-        **moved,
-    )
-
-
-def _eccentricities(solution: StepSolution, grid: Grid, *, adheres: bool) -> tuple[float, float]:
-    """Places of the force along x and y [m]; NaN where it has none."""
-    force, *moments = (float(resultant) for resultant in solution.resultants)
-    # Pressure and attraction that cancel have a moment, but no place where a force acts.
-    borne = float(np.abs(solution.pressure).sum()) * grid.cell_area if adheres else 0.0
-    if abs(force) <= NO_FORCE * borne:
-        return math.nan, math.nan
-    # Along its period a surface has no centre from which the force could be offset.
-    along_x, along_y = (
-        math.nan if repeats else moment / force
-        for moment, repeats in zip(moments, grid.periodic, strict=True)
-    )
-    return along_x, along_y
+        before, held = self._before, self._before is not None and point == self._point
+        self._point, self._held = point, held
+        if before is None:
+            return first_work(self._run, solution)
+        return work_of_step(self._run, before, solution, held=held)
