@@ -497,9 +497,3 @@ def test_work_of_a_ball_on_a_dissimilar_plane_is_heat_of_friction():
         errors.append(abs(last.friction_power / put_in - 1))
     assert errors[1] < 5e-3
     assert errors[1] < errors[0] / 1.8
-
-
-def test_coupled_bodies_that_creep_are_refused_in_motion():
-    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3)
-    with pytest.raises(ValueError, match=r"coupled, which is not supported in the motion of"):
-        rolled(8, 1.0, material=rubber, creepage=0.01)

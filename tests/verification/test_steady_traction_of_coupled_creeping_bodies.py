@@ -148,6 +148,52 @@ def bars_over_errors(seed: int) -> list[float]:
     return [bar / max(error, 1e-300) for bar, error in zip(bars, errors, strict=True)]
 
 
+def marched(speed: float, creepage: float, cells: int, ways: float) -> vc.ContactState:
+    """The roller over time, after a travel of some widths of the relaxed contact."""
+    cell, steps = 2 * HALF / cells, int(ways * cells)
+    travel, count = steps * cell, 2 * cells + 12 + steps
+    grid = vc.Grid((1, count), (1.0, count * cell), (True, False), centre=(0.0, travel / 2))
+    end = travel / speed
+    *_, last = vc.march(
+        *(vc.Paraboloid(math.inf, RADIUS), rubber(), vc.step(LINE, **HELD), grid),
+        np.linspace(0.0, end, steps + 1),
+        friction=FRICTION,
+        motion=vc.Travel([0.0, end], y=[0.0, travel], rolling=True, creepage=creepage),
+    )
+    return last
+
+
+def test_steady_motion_is_the_end_of_a_run_over_time() -> None:
+    """By other operators: at rest, with the memory of all that was. At first order in the cells."""
+    errors = []
+    for cells in (16, 32):
+        last, found = marched(0.3, 4e-3, cells, 5.0), rolled(rubber(), 0.3, cells=cells)
+        errors.append(abs(last.tangential_force_y / float(found.tangential_force_y) - 1))
+        assert last.resistance_y == close_to(float(found.resistance_y), rel=2e-3)
+        assert last.friction_power == close_to(float(found.friction_power), rel=3e-3)
+        assert last.peak_pressure == close_to(float(found.peak_pressure), rel=5e-3)
+    assert errors[1] < errors[0] / 2 < 4e-3
+
+
+def test_a_ball_over_time_is_the_elastic_one_without_creep_and_states_no_heat_with_it() -> None:
+    cell, steps = HALF / 6, 8
+    grid = vc.Grid((20, 28), (20 * cell, 28 * cell), centre=(0.0, steps * cell / 2))
+
+    def last(material: vc.Material) -> vc.ContactState:
+        *_, found = vc.march(
+            *(vc.Paraboloid(RADIUS, RADIUS), material, vc.step(FORCE, **HELD), grid),
+            np.linspace(0.0, 1.0, steps + 1),
+            friction=FRICTION,
+            motion=vc.Travel([0.0, 1.0], y=[0.0, steps * cell], rolling=True, creepage=4e-3),
+        )
+        return found
+
+    one, other = last(elastic(RELAXED)), last(rubber(instant=RELAXED * (1 - 1e-9)))
+    for name in ("tangential_force_y", "peak_pressure", "friction_heat"):
+        assert getattr(other, name) == close_to(getattr(one, name), rel=1e-6)
+    assert math.isnan(last(rubber()).heat)
+
+
 @pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 13), marks=pytest.mark.slow)])
 def test_error_bars_hold_against_finer_cells(seeds: range) -> None:
     """Nothing was chosen on these seeds, but for the least bar of the dissipation on others."""

@@ -117,10 +117,6 @@ def test_coupling_is_chosen_by_itself_where_it_cancels():
             "torque and rotation of a body that moves",
         ),
         (
-            {"friction": 0.3, "material": vc.Material(RUBBER.law, 0.3), "motion": DRIVEN},
-            "friction.coupling: pressure and tractions of these bodies are coupled",
-        ),
-        (
             {"friction": 0.3, "tangential": vc.tangential_ramp(force_x=0.06, duration=1.0)},
             "the body slides away at t = 500 ms: friction carries 30 mN",
         ),

@@ -144,6 +144,17 @@ RUNS = {
             tangential=vc.TangentialHistory([0, 1, 2, 3], force_x=[0, 0.03, 0, 0.02]),
         )
     ),
+    "coupled body that rolls and creeps": lambda: prepare_run(
+        Problem(
+            vc.Paraboloid(0.01, 0.01),
+            vc.Material(ZENER.law, 0.2),
+            vc.step(0.05, tilt_x=0.0, tilt_y=0.0),
+            vc.Grid((12, 20), (2.4e-3, 4e-3), centre=(0.0, 8e-4)),
+            vc.uniform_times(4.0, 8),
+            friction=vc.Friction(0.3),
+            motion=vc.Travel([0, 4], y=[0.0, 1.6e-3], rolling=True, creepage=0.01),
+        )
+    ),
     "moving punch that is lifted": lambda: prepare_run(
         Problem(
             vc.FlatPunch(3e-4),

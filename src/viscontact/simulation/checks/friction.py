@@ -86,8 +86,6 @@ def _check_rolling(problem: Problem) -> None:
             "tangential.torque: torque and rotation of a body that moves are not supported; leave "
             "them out"
         )
-    if not problem.surface.creep.is_elastic:
-        refuse_coupled(problem, "in the motion of bodies that creep")
     if any(isinstance(body, Layered) for body in problem.bodies):
         refuse_coupled(problem, "in the motion over layers")
 

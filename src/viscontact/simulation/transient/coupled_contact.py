@@ -160,11 +160,11 @@ class CoupledContact(FrictionalContact):
         """Tractions at a pressure, which moves the surface along itself."""
         region = self._region_of(contact)
         known = self._known(step, contact, region, response.shear)
-        later = response.of_pressure(contact.pressure)
-        moved = self._on(region).along(
-            [(now - then)[region.cut] for now, then in zip(later, response.before, strict=True)]
+        later, track = response.of_pressure(contact.pressure), self._track_of(region)
+        moved = self._on(track).along(
+            [(now - then)[track.cut] for now, then in zip(later, response.before, strict=True)]
         )
-        known = replace(known, past=known.past + moved)
+        known = replace(known, past=known.past + moved[:, *region.within(track)])
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way))

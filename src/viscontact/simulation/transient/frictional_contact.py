@@ -104,7 +104,8 @@ class FrictionalContact(Uncoupled):
         # A body that stands has no such result, and an elastic one loses nothing.
         if not self._moves or run.problem.surface.creep.is_elastic:
             return 0.0, 0.0
-        if not run.has_datum:
+        # Coupled, pressure and tractions lose something together, too, which is not computed.
+        if not run.has_datum or run.problem.is_coupled:
             return math.nan, math.nan
         track = self._domain.along(region, run.problem.motion.moves)
         heat, power = self._history.loss(traction, self._domain, track, step.time)
@@ -128,12 +129,16 @@ class FrictionalContact(Uncoupled):
 
     def _past(self, region: Region, response: ShearStep) -> Floats:
         """Displacement of a region in a step by earlier tractions [m]."""
+        track = self._track_of(region)
+        return response.past(self._domain, track)[:, *region.within(track)]
+
+    def _track_of(self, region: Region) -> Region:
+        """Region of earlier loads that displace one."""
         problem = self._run.problem
         if not self._moves or problem.surface.creep.is_elastic:
-            return response.past(self._domain, region)
-        # A body that creeps remembers the tractions all along the path.
-        track = self._domain.along(region, problem.motion.moves)
-        return response.past(self._domain, track)[:, *region.within(track)]
+            return region
+        # A body that creeps remembers the loads all along the path.
+        return self._domain.along(region, problem.motion.moves)
 
     @property
     def _moves(self) -> bool:
