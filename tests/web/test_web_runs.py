@@ -7,25 +7,17 @@ import io
 import json
 import os
 import re
-import signal
-import subprocess
-import sys
-import time as clock
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import httpx
 import pytest
 import xarray as xr
 from fastapi.testclient import TestClient
 
 from closeness import close_to
 from drawing.plotly.figure_data import array_of
-from viscontact.cli import main
 from viscontact.drawing.content.look import LIGHT
 from viscontact.results.run_axis import TIME
 from viscontact.units.formatting import format_quantity
@@ -33,26 +25,9 @@ from viscontact.web.runs import queue
 from viscontact.web.runs.live_scalars import LiveScalars
 from viscontact.web.workspace.folder import RunEntry
 from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
+from web.run_numbers import by_command_line, client, numbers
 
-
-@pytest.fixture
-def client(tmp_path: Path) -> Iterator[TestClient]:
-    with asking(tmp_path / "page") as client:
-        yield client
-
-
-def numbers(result: Path | bytes) -> dict[str, bytes]:
-    """Return all numbers of a result to the last bit."""
-    with xr.open_dataset(io.BytesIO(result) if isinstance(result, bytes) else result) as ds:
-        return {str(name): ds[name].values.tobytes() for name in ds.variables}
-
-
-def by_command_line(text: str, folder: Path) -> Path:
-    """Run a case as anybody could type it, and return its result."""
-    case = folder / "typed.yaml"
-    case.write_text(text, encoding="utf-8")
-    assert main(["run", str(case), "-q"]) == 0
-    return folder / "typed" / "result.nc"
+__all__ = ["client"]  # a fixture
 
 
 def strict(text: str) -> Any:
@@ -241,24 +216,6 @@ def test_a_run_waits_for_the_memory_that_starting_ones_will_take(
     assert (second.is_at_work, third.is_at_work) == (True, True)
 
 
-def test_a_run_that_met_a_full_disk_goes_on_once_there_is_room(client: TestClient) -> None:
-    import resource
-
-    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
-    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (250_000, usual[1]))  # of the process of the run, too
-    try:
-        run = begun(client, LONG_CASE.replace("4000", "700"))
-        reply = followed(client, run)[-1]
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, usual)
-        signal.signal(signal.SIGXFSZ, before)
-    assert (reply["state"], reply["resumable"]) == ("failed", True)
-    assert 0 < reply["step"] < 700
-    client.post(f"/api/runs/{run}/resume")
-    assert followed(client, run)[-1]["state"] == "done"
-
-
 def test_runs_whose_cases_have_one_title_are_distinguished(tmp_path: Path) -> None:
     with asking(tmp_path / "page", at_once=0) as client:  # all wait
         stronger = CASE.replace("4 N", "8.5 N")
@@ -282,45 +239,6 @@ def test_runs_whose_cases_have_one_title_are_distinguished(tmp_path: Path) -> No
         names = [each["content-disposition"] for each in files]
         assert len(set(names)) == len(runs)
         assert "zener-sphere-steps-4-without-errors-coarse.yaml" in names[1]
-
-
-def test_a_run_whose_case_is_damaged_hinders_none_of_the_same_title(tmp_path: Path) -> None:
-    with asking(tmp_path / "page", at_once=0) as client:
-        damaged = begun(client, CASE)
-        (tmp_path / "page" / "runs" / damaged / "given" / "case.yaml").write_bytes(b"\xff")
-        assert status(client, begun(client, CASE))["label"].startswith("Zener sphere")
-
-
-@pytest.mark.slow
-def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
-    client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    text = CASE.replace("[4 mm, 4 mm]", "[1 mm, 1 mm]")  # the contact overruns the grid
-    reply = followed(client, begun(client, text))[-1]
-    assert reply["state"] == "failed"
-    assert not reply["resumable"]
-    case = tmp_path / "typed.yaml"
-    case.write_text(text, encoding="utf-8")
-    assert main(["run", str(case), "-q"]) == 1
-    first = capsys.readouterr().err.splitlines()[0]
-    (problem, *_) = reply["problems"]
-    assert first == f"{case}:{problem['line']}: {problem['path']}: {problem['message']}"
-    assert reply["message"].endswith(problem["message"])
-    # Where the page has buttons, nothing is said of what to type.
-    assert not any("run it again" in each["message"] for each in reply["problems"])
-
-
-def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None:
-    with asking(tmp_path / "page", at_once=1) as client:
-        first, waiting = begun(client, LONG_CASE), begun(client)
-        reply = status(client, waiting)
-        assert (reply["state"], reply["table"], reply["figures"]) == ("waiting", [], [])
-        for name in ("figure/history.svg", "report.html", "history.csv", "data", "result.nc"):
-            answer = client.get(f"/api/runs/{waiting}/{name}")
-            assert answer.status_code == 409, name
-            assert answer.json()["problems"][0]["message"]
-        client.delete(f"/api/runs/{waiting}")
-        client.delete(f"/api/runs/{first}")
 
 
 @pytest.mark.slow
@@ -374,179 +292,3 @@ def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
     assert shown.content == saved.content
     assert "content-disposition" not in shown.headers
     assert shown.headers["content-security-policy"].startswith("sandbox ")
-
-
-@pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
-def test_a_full_disk_is_reported_and_leaves_nothing(client: TestClient, tmp_path: Path) -> None:
-    import resource
-
-    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
-    # What is over the limit fails as on a full disk, with an error of the system.
-    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100, usual[1]))
-    try:
-        file = client.post("/api/files?name=a.csv", content=b"1" * 1000)
-        run = client.post("/api/runs", json={"yaml": CASE})
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, usual)
-        signal.signal(signal.SIGXFSZ, before)
-    assert (file.status_code, run.status_code) == (507, 507)
-    assert file.json()["problems"][0]["message"] == "a.csv cannot be stored: File too large"
-    assert "cannot be stored" in run.json()["problems"][0]["message"]
-    assert list((tmp_path / "page" / "runs").iterdir()) == []
-    assert {path.name for path in (tmp_path / "page" / "files").iterdir()} == {"rough-patch.npz"}
-
-
-def test_a_damaged_run_hides_no_other_one(tmp_path: Path) -> None:
-    asked = {
-        **{"title": "whole", "quality": "full", "created": "", "settings": [], "instants": 3},
-        **{"end": 1.0, "work": 1.0, "memory": 1.0, "errors": False, "state": "done", "said": []},
-    }
-    damages = ({}, {"title": 5}, {"instants": "x"}, {"settings": 1}, {"end": None})
-    for number, damage in enumerate(damages):
-        (tmp_path / "runs" / str(number) / "run").mkdir(parents=True)
-        text = json.dumps({**asked, **damage})
-        (tmp_path / "runs" / str(number) / "request.json").write_text(text, encoding="utf-8")
-    (tmp_path / "runs" / "0" / "run" / "progress.jsonl").write_bytes(b"5\n[]\n")
-    with asking(tmp_path) as client:
-        answer = client.get("/api/runs")
-    assert answer.status_code == 200
-    assert [(run["title"], run["step"]) for run in answer.json()] == [("whole", 0)]
-
-
-# --- the process ------------------------------------------------------------------------------
-
-
-class Served:
-    """`viscontact serve`, as anybody could type it."""
-
-    def __init__(self, folder: Path) -> None:
-        command = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
-        self.process = subprocess.Popen(
-            [*command, "--dir", str(folder)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stdout is not None
-        page, _, token = self.process.stdout.readline().split()[0].partition("?token=")
-        words = {"authorization": f"token {token}"}
-        self.client = httpx.Client(base_url=page, timeout=60, headers=words)
-
-    def end(self, number: int) -> tuple[int, str]:
-        """Send it a signal, and return its exit code and what it said."""
-        self.process.send_signal(number)
-        _, said = self.process.communicate(timeout=60)
-        self.client.close()
-        return self.process.returncode, said
-
-
-@pytest.fixture
-def serving(tmp_path: Path) -> Iterator[Callable[[], Served]]:
-    """Return a function that starts a server; none outlasts its test."""
-    servers: list[Served] = []
-
-    def start() -> Served:
-        servers.append(Served(tmp_path / "page"))
-        return servers[-1]
-
-    yield start
-    for server in servers:
-        if server.process.poll() is None:
-            server.process.kill()
-            server.process.communicate()
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
-def test_a_server_stopped_in_mid_run_shows_the_run_again_and_continues_it(
-    serving: Callable[[], Served], tmp_path: Path, number: int
-) -> None:
-    text = LONG_CASE.replace("4000", "800")
-    first = serving()
-    run = begun(first.client, text)
-    waiting = [begun(first.client, text) for _ in range(2)][-1]
-    until(lambda: status(first.client, run)["step"] > 3)
-    code, _ = first.end(number)
-    assert code == (-number if number == signal.SIGKILL else 0)
-
-    second = serving()
-    # One whose server was killed finishes its step by itself.
-    until(lambda: all(each["over"] for each in second.client.get("/api/runs").json()))
-    reply = status(second.client, run)
-    assert reply["state"] == "interrupted"
-    assert reply["resumable"]
-    assert 3 < reply["step"] < 800
-    assert status(second.client, waiting)["state"] == "interrupted"
-    for each in (run, waiting):
-        second.client.post(f"/api/runs/{each}/resume")
-    results = []
-    for each in (run, waiting):
-        assert followed(second.client, each)[-1]["state"] == "done"
-        results.append(tmp_path / f"{each}.nc")
-        results[-1].write_bytes(second.client.get(f"/api/runs/{each}/result.nc").content)
-    whole = numbers(by_command_line(text, tmp_path))
-    assert [numbers(result) for result in results] == [whole, whole]
-    assert second.end(signal.SIGINT)[0] == 0
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
-def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(
-    serving: Callable[[], Served], tmp_path: Path
-) -> None:
-    server = serving()
-    assert server.client.base_url.host == "127.0.0.1"
-    run = begun(server.client, LONG_CASE)
-    until(lambda: status(server.client, run)["step"] > 3)
-    # A second one may not write to the same folder.
-    again = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
-    refused = subprocess.run(
-        [*again, "--dir", str(tmp_path / "page")],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert refused.returncode == 2
-    assert refused.stderr.count("\n") == 1
-    assert "another viscontact serves from there" in refused.stderr
-    with ThreadPoolExecutor(1) as pool:
-        seen = pool.submit(followed, server.client, run)
-        clock.sleep(0.5)
-        code, said = server.end(signal.SIGTERM)
-        assert seen.result()[-1]["state"] == "interrupted"  # whoever looks on sees the end
-    assert code == 0
-    assert said.splitlines() == ["stopping after this step; once more to stop now", "ended"]
-    (asked,) = (tmp_path / "page" / "runs").glob("*/request.json")
-    assert json.loads(asked.read_text(encoding="utf-8"))["state"] == "interrupted"
-    assert (asked.parent / "run" / "state.npz").is_file()
-
-
-def test_a_port_that_is_taken_is_refused_in_a_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    import socket
-
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        words = ["serve", "--no-open", "--port", str(port), "--dir", str(tmp_path)]
-        assert main(words) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"--port {port}: cannot be used: ")
-    assert said.count("\n") == 1
-
-
-def test_without_the_extra_a_line_names_it(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in [name for name in sys.modules if name.startswith("viscontact.web")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "uvicorn", None)  # what an import of it meets
-    assert main(["serve", "--no-open"]) == 2
-    assert capsys.readouterr().err == (
-        "the calculator page needs uvicorn: pip install 'viscontact[web]'\n"
-    )

@@ -12,7 +12,7 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from runs.directory.test_recorder import finish, same_bits, stop_after
+from runs.directory.recorded_sphere import finish, same_bits, stop_after
 from simulation.transient.measured_swing import write_swing
 from simulation.transient.test_march import differing, steps_of, through_a_file
 from viscontact.bodies.grid import AutomaticGrid
