@@ -132,6 +132,28 @@ def test_an_oblique_load_on_a_creeping_sphere_never_slips(nu, error):
     np.testing.assert_allclose(ratios, part, rtol=0.03)
 
 
+@pytest.mark.parametrize("nu", [0.17, 0.42, pytest.param(0.5, marks=pytest.mark.slow)])
+def test_tractions_of_an_oblique_load_follow_the_pressure_but_at_the_edges_of_steps(nu):
+    """q/p is the same to 1 % in all cells but those within one of an edge at the end of a step."""
+    part = 0.22
+    found = states(
+        zener(nu),
+        vc.step(FORCE),
+        vc.tangential_step(force_x=part * FORCE),
+        72,
+        times=np.linspace(0, 10, 7),
+        compliance=LATE,
+    )
+    last, cell = found[-1], found[-1].grid.cell_size[0]
+    distance = np.hypot(last.grid.x[:, None], last.grid.y[None, :])
+    edges = [np.sqrt(np.count_nonzero(each.in_contact) / np.pi) * cell for each in found]
+    inside = last.in_contact & (np.min([abs(distance - edge) for edge in edges], axis=0) > cell)
+    assert np.count_nonzero(inside) > 0.75 * np.count_nonzero(last.in_contact)
+    ratios = last.traction_x[inside] / last.pressure[inside]
+    np.testing.assert_allclose(ratios, part, rtol=0.01)
+    assert max(each.slip_fraction for each in found) == 0
+
+
 def test_a_clamped_stage_keeps_its_stick_zone():
     """Approach and shift held: all forces relax as the modulus, and c/a does not change."""
     approach = hertz_radius(INSTANT) ** 2 / RADIUS
