@@ -31,11 +31,20 @@ STEP_TOLERANCE_SHARE = 0.2
 #: Safety factor of the controller, and power of the duration that a step's error falls with.
 SAFETY_FACTOR, ERROR_ORDER = 0.7, 3.0
 
-#: Smallest and largest factor from one duration to the next.
-MIN_FACTOR, MAX_FACTOR = 0.2, 2.0
+#: Safety factor where the change of the force limits a step, which is foreseen better than an
+#: error.
+CHANGE_SAFETY_FACTOR = 0.85
+
+#: Smallest and largest factor from one duration to the next; the largest one where the change of
+#: the force alone limits steps, which are very short after a jump.
+MIN_FACTOR, MAX_FACTOR, MAX_FACTOR_OF_CHANGE = 0.2, 2.0, 4.0
 
 #: Shortest step, as a part of the run.
 MIN_STEP_FRACTION = 1e-12
+
+#: Part of the way to a time at which no near state was found that a step takes, and the length of a
+#: step over that way from which on a state is looked for there again.
+PART_OF_WAY, LOOKED_AGAIN = 0.5, 1.5
 
 #: Longest first step after a kink, as a part of the interval to the next kink.
 FIRST_STEP_FRACTION = 0.02
@@ -122,6 +131,7 @@ class AdaptiveSteps:
         self._time, self._duration = 0.0, 0.0
         self._step: TimeStep | None = TimeStep(0.0, 0.0, self._state_at(0.0), smooth=False)
         self._growth = MAX_FACTOR
+        self._lost = 0.0  # time at which no state was found near the one before [s]
 
     @property
     def left(self) -> int:
@@ -156,7 +166,7 @@ class AdaptiveSteps:
             return True
         # Proposed factor of the duration (Hairer, Norsett & Wanner, section II.4), limited below.
         factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
-        factor = min(factor, SAFETY_FACTOR / max(change, 1e-30))
+        factor = min(factor, CHANGE_SAFETY_FACTOR / max(change, 1e-30))
         # Error too large: repeat with a shorter duration.
         is_too_long = error > self._allowed or change > 1
         if is_too_long and not self._is_shortest(step.duration):
@@ -164,9 +174,10 @@ class AdaptiveSteps:
             self._step = self._next_step(step.smooth)
             return False
         changed = error > 0 or change > 0
-        self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if changed else MAX_FACTOR
+        largest = MAX_FACTOR_OF_CHANGE if change > 0 else MAX_FACTOR
+        self._growth = min(max(factor, MIN_FACTOR), largest) if changed else MAX_FACTOR
         # A step that a stop cut short does not reduce the duration that it was cut from.
-        self._duration = min(self._duration, MAX_FACTOR * step.duration)
+        self._duration = min(self._duration, largest * step.duration)
         self._duration = max(self._duration, self._growth * step.duration)
         self._advance(step, jumped=math.isinf(change))
         return True
@@ -174,6 +185,8 @@ class AdaptiveSteps:
     def repeat_shorter(self, change: float, longest: float) -> None:
         """Choose a shorter step, by a change as in `accept_step`, or of a duration at most [s]."""
         if math.isinf(longest):
+            if self._step is not None and math.isinf(change):
+                self._lost = self._step.time
             self.accept_step(0.0, change)
             return
         assert self._step is not None  # there was one that is too long
@@ -197,6 +210,7 @@ class AdaptiveSteps:
             "time": self._time,
             "duration": self._duration,
             "growth": self._growth,
+            "lost": self._lost,
             "step": None if self._step is None else asdict(self._step),
         }
 
@@ -205,13 +219,19 @@ class AdaptiveSteps:
         self._time, self._duration, self._growth = (
             restart_data[name] for name in ("time", "duration", "growth")
         )
+        self._lost = restart_data.get("lost", 0.0)
         self._step = None if restart_data["step"] is None else TimeStep(**restart_data["step"])
 
     def _is_shortest(self, duration: float) -> bool:
         """True if a step is not to be shortened [s]."""
+        return duration <= self._shortest
+
+    @property
+    def _shortest(self) -> float:
+        """Longest step that is not to be shortened [s]."""
         if self._jumps_in is None:
-            return duration <= MIN_STEP_FRACTION * self._end
-        return duration <= self._jumps_in * stretch_at(self._load, self._time, self._end)
+            return MIN_STEP_FRACTION * self._end
+        return self._jumps_in * stretch_at(self._load, self._time, self._end)
 
     def _state_at(self, time: float) -> float | None:
         """Requested time of a state at the end of a step [s]; None without one."""
@@ -238,6 +258,9 @@ class AdaptiveSteps:
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
         duration = self._duration
+        ahead = self._lost - self._time
+        if 0 < ahead and duration < LOOKED_AGAIN * ahead:  # the end of the state lies between
+            duration = min(duration, ahead, max(PART_OF_WAY * ahead, self._shortest))
         if self._time < self._load.curved_until:
             duration = min(duration, self._load.longest_step)
         for clock in self._clocks:

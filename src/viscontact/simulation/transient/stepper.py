@@ -30,6 +30,7 @@ from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.state import Outcome
 from viscontact.mechanics.time_integration.extrapolation import (
+    ADHESIVE_POINTS,
     EXTRAPOLATION_POINTS,
     ElasticReference,
     predict,
@@ -127,6 +128,7 @@ class Stepper:
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
         self._adhesive = _adhesive_contact(run, domain)
+        self._points = EXTRAPOLATION_POINTS if self._adhesive is None else ADHESIVE_POINTS
         #: Part of the last step after its rise [s].
         self._slow = 0.0
 
@@ -225,11 +227,11 @@ class Stepper:
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
-        known, team = self._reference_history(step), self._domain.team
+        known = self._reference_history(step)
         if self._run.problem.motion.stands:
-            guess = self._reference_guess(predict(known, step.time, drive, team), response)
+            guess = self._reference_guess(self._predicted(known, step, drive), response)
         else:
-            moved = predict(self._move_known(known, step), step.time, point.level, team)
+            moved = self._predicted(self._move_known(known, step), step, point.level)
             guess = None if moved is None else self._moved_guess(moved, problem)
         return StepProblem(point, response, drive, problem, guess, lift)
 
@@ -241,7 +243,7 @@ class Stepper:
             # A jump breaks the extrapolation: what came before it does not count.
             jumps = step.is_jump or math.isinf(trial.change)
             known = [] if jumps else self._reference_history(step)
-            self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
+            self._references = [*known[1 - self._points :], self._known_from(trial)]
         self._motion = trial.solution.motion
         self._slow = trial.response.slow * step.duration
         loss = self._loss(trial.pairs)
@@ -277,7 +279,13 @@ class Stepper:
 
     def _reference_history(self, step: TimeStep) -> list[ElasticReference]:
         """The references that the next one is extrapolated from; after a kink, the last one."""
-        return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
+        return self._references[-self._points :] if step.smooth else self._references[-1:]
+
+    def _predicted(
+        self, known: list[ElasticReference], step: TimeStep, drive: float
+    ) -> ElasticReference | None:
+        """Reference that known ones foresee at the end of a step."""
+        return predict(known, step.time, drive, self._domain.team, self._points)
 
     def _moved_guess(self, moved: ElasticReference, problem: ContactProblem) -> Guess:
         """Guess from earlier pressures that have been moved with the body."""
