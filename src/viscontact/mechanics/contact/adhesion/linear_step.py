@@ -27,7 +27,7 @@ SPARE = 2
 
 #: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
 #: the largest residual.
-INNER_TOLERANCE = 0.5
+INNER_TOLERANCE = 3.0
 
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
@@ -67,6 +67,7 @@ class LinearStep:
         self._of_gap.ravel()[self._contact] = 1 / spacing
         self._open = np.ones(patch.shape, np.float32)
         self._open.ravel()[self._contact] = 0.0
+        self._closed = 1 - self._open
         #: Equations of cells whose attraction grows with the gap are stiff [-].
         self._softened = self._open
         if problem.law.decreasing is not problem.law:
@@ -190,11 +191,11 @@ class LinearStep:
         """About the pressure that a residual calls for [Pa]."""
         np.multiply(vector, self._softened, out=into)
         if self._contact.size:
-            field = self._patch.operators.spare(0)
-            field[...] = 0.0
-            field.ravel()[self._contact] = vector.ravel()[self._contact] * self._spacing
+            field = np.multiply(vector, self._closed, out=self._patch.operators.spare(0))
+            field *= self._spacing
             self._patch.preconditioner.apply(field, into=field)
-            into.ravel()[self._contact] = field.ravel()[self._contact]
+            field *= self._closed
+            into += field
         return into
 
     def _share(self, mode: int) -> Singles:
@@ -203,5 +204,5 @@ class LinearStep:
             return np.zeros(self._patch.shape, np.float32)
         pressed = self._of_gap * self._planes[mode] / self._compliance
         if self._contact.size:
-            pressed *= 1 - self._open
+            pressed *= self._closed
         return self._preconditioned(pressed.astype(np.float32), np.empty_like(self._open))
