@@ -146,6 +146,11 @@ def test_a_sphere_that_sticks_is_fitted_and_used(tmp_path: Path) -> None:
         page.click("#fit-go")
         page.wait_for_selector("#fit-drawings img", timeout=60_000)
         assert "MPa" in page.inner_text("#fit-parameters")
+        for width in (1280, 390):  # no column is cut
+            page.set_viewport_size({"width": width, "height": 900})
+            beyond = "e => e.scrollWidth - e.clientWidth"
+            assert page.eval_on_selector("#fit-parameters", beyond) == 0
+        page.set_viewport_size({"width": 1280, "height": 900})
         assert page.inner_text("#fit-use") == "Use as material and adhesion"
         with page.expect_response("**/api/check"):
             page.click("#fit-use")

@@ -215,8 +215,29 @@ def test_a_step_is_repeated_with_a_duration_at_most():
     first = steps.next_step()
     steps.repeat_shorter(math.inf, 0.3 * first.duration)
     assert steps.next_step().duration == close_to(0.3 * first.duration)
-    steps.repeat_shorter(1.4, math.inf)
+    steps.repeat_shorter(1.7, math.inf)
     assert steps.next_step().duration == close_to(0.15 * first.duration)
+
+
+def test_steps_close_in_on_a_time_at_which_no_near_state_was_found():
+    load = ApproachHistory([0.0, 1.0], [1e-6, -1e-6])
+    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    steps.accept_step(0.0)
+    while steps.next_step().time < 0.2:
+        steps.accept_step(0.0, 0.5)
+    lost = steps.next_step().time
+    steps.repeat_shorter(math.inf, math.inf)
+    for _ in range(30):  # the state ends at 0.19
+        step = steps.next_step()
+        if step.time > 0.19 and step.is_shortest:
+            break
+        if step.time > 0.19:
+            steps.repeat_shorter(math.inf, math.inf)
+            lost = step.time
+            continue
+        assert step.time < lost
+        steps.accept_step(0.0, 0.7)
+    assert 0.19 < step.time < 0.19 + 2e-5
 
 
 def test_a_jump_that_is_not_solved_is_tried_sooner_a_few_times():

@@ -34,9 +34,14 @@ from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 #: instant and force the step tells.
 LARGEST_CHANGE, CHANGE_WHERE_MET = 0.15, 0.005
 
+#: The same where the pull is above this part of the largest one and grows by less than that part of
+#: it in a step: a parabola through three states reads the largest one. On coarse cells the force
+#: goes up and down as the contact crosses them, and steps of twice this change read the largest
+#: pull with twice the scatter.
+CHANGE_WHERE_PULLED, PULL_READ, LEAST_GROWTH = 0.045, 0.99, 0.02
+
 #: Largest error of the predicted force in those, and power of the step with which it grows. A state
-#: near the extrapolated one is on the same branch, and a parabola through three states reads the
-#: largest pull within a tenth of this error.
+#: near the extrapolated one is on the same branch.
 LARGEST_ERROR, ERROR_ORDER = 0.01, 3
 
 #: The same of bodies that are apart and go on parting, whose state does not end.
@@ -212,13 +217,25 @@ class AdhesiveContact:
         by_error = float(np.power(error / largest_error, 1 / ERROR_ORDER))
         if not smooth:
             by_error = error / LARGEST_FIRST_CHANGE
-        largest = CHANGE_WHERE_MET if touches != self._touches else LARGEST_CHANGE
+        largest = CHANGE_WHERE_PULLED if self._pulled_most(solution) else LARGEST_CHANGE
+        if touches != self._touches:
+            largest = CHANGE_WHERE_MET
         return max(by_error, self._change(solution) / largest)
 
     def _longest_kept(self, solution: AdhesiveSolution) -> float:
         """Length of a solved step over the longest one up to which it is not repeated."""
-        pulls_most = -self._sum(solution.found.pressure) > PULL_KEPT * self._largest_pull
-        return 1.0 if pulls_most or self._law.is_abrupt else LONGEST_KEPT
+        exactly = self._law.is_abrupt or self._pulls_most(solution)
+        return 1.0 if exactly else LONGEST_KEPT
+
+    def _pulls_most(self, solution: AdhesiveSolution) -> bool:
+        """True where the pull may be the largest one of the run."""
+        return -self._sum(solution.found.pressure) > max(PULL_KEPT * self._largest_pull, 0.0)
+
+    def _pulled_most(self, solution: AdhesiveSolution) -> bool:
+        """True where the pull may have been the largest one of the run within the step."""
+        before, now = -self._force, -self._sum(solution.found.pressure)
+        grows = now - before > LEAST_GROWTH * now
+        return not grows and max(before, now) > max(PULL_READ * self._largest_pull, 0.0)
 
     def _apart(self, solution: AdhesiveSolution, force: float, attraction: float) -> float:
         """Distance of a solution from a force and attraction [N], over the scale of forces [-]."""
