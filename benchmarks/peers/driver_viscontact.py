@@ -45,7 +45,7 @@ def adhesive(problem: Problem, tolerance: float) -> np.ndarray:
         scale = 1e-12 * float((problem["size"] / gap.shape).max())
         posed = AdhesiveProblem(ContactProblem(gap, float(problem["instant"]), held, scale), law)
         start = traction_at(posed, half_space, np.maximum(gap, 0.0))
-        solution = solve_from(posed, half_space, start, tolerance)
+        solution = solve_from(posed, half_space, start, tolerance, from_afar=True)
         if solution is None or not solution.converged:
             raise RuntimeError("not converged")
         found.append(solution.found.pressure)

@@ -170,10 +170,13 @@ class AdhesiveContact:
 
     def _jumped(self, problem: AdhesiveProblem) -> AdhesiveStep:
         """Nearest stable state from the last one; of bodies that come from afar, at the start."""
-        traction = self._traction
+        traction, from_afar = self._traction, False
         if traction is None:
             traction = self._at_first(problem)
-        found = solve_from(problem, self._domain, traction, self._tolerance)
+            # Under a force, or where cells give up one by one, another way may end elsewhere.
+            from_afar = not (problem.contact.constraints.free[0] or self._law.is_abrupt)
+        given = problem, self._domain, traction, self._tolerance
+        found = solve_from(*given, from_afar=from_afar)
         if found is None:
             apart = released(problem, self._domain)
             return AdhesiveStep(problem, apart, Outcome.PULLED_OFF, math.inf)

@@ -22,8 +22,10 @@ from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import solve_contact
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 
-#: Tolerance of the contacts of a descent.
-CONTACT_TOLERANCE = 1e-7
+#: Tolerance of the contacts of a descent, and the largest one of a descent from afar, where it is a
+#: part of the change of the attraction, in strengths: iterates of small changes keep their way.
+#: Those with a tolerance of so many times this part are repeated.
+CONTACT_TOLERANCE, LARGEST_TOLERANCE, PART_OF_CHANGE, ROUGH = 1e-7, 1e-2, 1e-2, 10.0
 
 #: Iterations of one call.
 MAX_ITERATIONS = 600
@@ -32,6 +34,9 @@ MAX_ITERATIONS = 600
 #: state, or pass the place of one that has just ceased to exist; those are passed in steps of this
 #: length. Ratio of successive changes up to which they approach a state [-].
 NEAR, CONVERGES = 3e-2, 0.8
+
+#: Change from which on iterates from afar that approach a state are near it.
+NEAR_FROM_AFAR = 1e-1
 
 #: The length where the law ends abruptly, as its front changes the cells that it crosses alone: a
 #: change of the strength takes it over one cell.
@@ -57,7 +62,17 @@ class Descended:
 class Descent:
     """Iterations from an attraction to the nearest stable state."""
 
-    def __init__(self, problem: AdhesiveProblem, domain: ContactDomain, traction: Floats) -> None:
+    def __init__(
+        self,
+        problem: AdhesiveProblem,
+        domain: ContactDomain,
+        traction: Floats,
+        *,
+        from_afar: bool = False,
+    ) -> None:
+        """Begin with an attraction [Pa], far from a state or near one."""
+        self._tolerance = LARGEST_TOLERANCE if from_afar else CONTACT_TOLERANCE
+        self._near = NEAR_FROM_AFAR if from_afar else NEAR
         self._problem, self._domain, self._law = problem, domain, problem.law.decreasing
         self._traction = traction
         self._pressed: Guess | None = None
@@ -73,10 +88,12 @@ class Descent:
 
     def run(self) -> Descended:
         """Iterate until the attraction approaches a state, or turns back from one it has passed."""
-        near = NEAR * self._problem.law.strength
+        near = self._near * self._problem.law.strength
         while True:
             before, last = self._traction, self._last
             found = self._iterate()
+            if self._tolerance > CONTACT_TOLERANCE and not found.detached:
+                found = self._improved(before, found)
             self._last = found
             self.iterations += 1
             if found.detached or self.is_spent:
@@ -93,6 +110,16 @@ class Descent:
             if not slows and found.change < self._longest:  # a longer step along the same way
                 way, factor = found.traction - before, self._longest / found.change
                 self._traction = np.maximum(before + min(factor, self._factor) * way, 0.0)
+
+    def _improved(self, before: Floats, found: Descended) -> Descended:
+        """Iterate from afar, repeated if its change is too small for its tolerance."""
+        asked = PART_OF_CHANGE * found.change / self._problem.law.strength
+        asked = min(max(asked, CONTACT_TOLERANCE), LARGEST_TOLERANCE)
+        is_rough, self._tolerance = self._tolerance > ROUGH * asked, asked
+        if not is_rough:
+            return found
+        self._traction = before
+        return self._iterate()
 
     def _iterate(self) -> Descended:
         """Contact under the attraction so far, and that of its gap."""
@@ -152,7 +179,7 @@ class Descent:
             start = Guess(np.zeros((2, *domain.shape)), np.array([position, 0.0, 0.0]))
         else:
             start = self._solved(contact)
-        found = newton_search(convex, domain, start, CONTACT_TOLERANCE)
+        found = newton_search(convex, domain, start, self._tolerance)
         self.convolutions += found.convolutions
         return found.iterate if found.converged or problem.spring else None
 
@@ -167,7 +194,7 @@ class Descent:
         guess = None
         if self._pressed is not None and self._pressed.pressure.any():
             guess = Guess(self._pressed.values.copy(), motion)
-        found = solve_contact(contact, domain, guess, tolerance=CONTACT_TOLERANCE)
+        found = solve_contact(contact, domain, guess, tolerance=self._tolerance)
         self.convolutions += found.convolutions
         return found.found
 

@@ -56,9 +56,14 @@ def solve_from(
     domain: ContactDomain,
     traction: Floats,
     tolerance: float,
+    *,
+    from_afar: bool = False,
 ) -> AdhesiveSolution | None:
-    """Nearest stable state from an attraction [Pa]; None where the force is not carried."""
-    descent = Descent(problem, domain, traction)
+    """Nearest stable state from an attraction [Pa]; None where the force is not carried.
+
+    One that is far from all states, as that of undeformed bodies, may be followed less accurately.
+    """
+    descent = Descent(problem, domain, traction, from_afar=from_afar)
     spent, tried = 0, None
     while True:
         reached = descent.run()
