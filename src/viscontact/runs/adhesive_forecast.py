@@ -11,7 +11,7 @@ from viscontact.simulation.transient.setup import RunSetup
 #: Steps of a way into contact and off it: of a round body, what its Tabor number adds, up to one
 #: that few grids resolve, and of another body; and what given instants, creep and a first jump into
 #: contact add. Measured on spheres and a rough surface.
-STEPS, STEPS_BY_TABOR, LARGEST_TABOR, STEPS_OF_OTHERS = 75.0, 25.0, 4.0, 55.0
+STEPS, STEPS_BY_TABOR, LARGEST_TABOR, STEPS_OF_OTHERS = 66.0, 25.0, 4.0, 50.0
 STEPS_BY_INSTANT, STEPS_BY_CREEP, STEPS_BY_JUMP_IN = 0.5, 15.0, 40.0
 
 #: Part of those steps that a given force takes, which leaves out the way from the pull-off on.

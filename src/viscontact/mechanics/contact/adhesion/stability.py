@@ -46,9 +46,9 @@ RETURNS_ALIKE = 0.1
 #: error of the factor is about the square of it.
 REDUCTION, LARGEST_REDUCTION = 0.1, 0.3
 
-#: The same of systems whose solution is about known from the state before: on spheres and on a
-#: rough surface the factor errs no more than with the ones above.
-REDUCTION_KNOWN, LARGEST_REDUCTION_KNOWN = 0.3, 0.5
+#: The same of systems whose solution is about known from the state before, and of a law that rises
+#: first: on spheres and on a rough surface the factor errs no more than with the ones above.
+REDUCTION_LATER, LARGEST_REDUCTION_LATER = 0.3, 0.5
 
 #: Slopes below this part of the largest one are none [-].
 NEGLIGIBLE_SLOPE = 1e-6
@@ -75,11 +75,12 @@ def stability(
     change, found = np.where(falls > 0, falls, 0.0), []
     held = _Held(problem, domain, solution.in_contact)
     start, limit, reductions = None, NEGLIGIBLE_SLOPE, (REDUCTION, LARGEST_REDUCTION)
+    if known is not None or not decreases:
+        reductions = REDUCTION_LATER, LARGEST_REDUCTION_LATER
     if known is not None and decreases:
         before = held.answer(known, falls)
         if before.returned.any():
             change, start, limit = before.returned, before, RETURNS_ALIKE
-            reductions = REDUCTION_KNOWN, LARGEST_REDUCTION_KNOWN
     reduction = reductions[0]
     for _ in range(solves):
         change *= problem.law.strength / np.abs(change).max()
