@@ -53,8 +53,8 @@ ARRAYS_OF_TRACK = 31.0
 #: four times the cells. Each term of the law adds one of the pressure.
 ARRAYS_OF_COUPLING, COMPUTED_ARRAYS_OF_COUPLING = 27.0, 30.0
 
-#: Arrays of the computed cells with adhesion: attraction and its slope, gap, a third pair that guesses
-#: are extrapolated from, and about ten vectors each of the basis and the directions of GMRES.
+#: Arrays of the computed cells with adhesion: attraction and its slope, gap, a third pair that
+#: guesses are extrapolated from, and about ten vectors each of basis and directions of GMRES.
 ARRAYS_OF_ADHESION = 32.0
 
 #: Fields that take as much memory as the tables and operators of a further term of layers.

@@ -259,7 +259,7 @@ class AdaptiveSteps:
         way = stop - self._time
         duration = self._duration
         ahead = self._lost - self._time
-        if 0 < ahead and duration < LOOKED_AGAIN * ahead:  # the end of the state lies between
+        if ahead > 0 and duration < LOOKED_AGAIN * ahead:  # the end of the state lies between
             duration = min(duration, ahead, max(PART_OF_WAY * ahead, self._shortest))
         if self._time < self._load.curved_until:
             duration = min(duration, self._load.longest_step)

@@ -1,4 +1,4 @@
-"""Adhesive contact of a rough surface that repeats, found from the attraction of undeformed bodies."""
+"""Adhesive contact of a rough surface that repeats, found from undeformed bodies."""
 
 import numpy as np
 import pytest
