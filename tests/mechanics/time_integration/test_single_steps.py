@@ -7,7 +7,7 @@ import numpy as np
 import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.materials.compliance import SeriesCompliance
-from viscontact.mechanics.time_integration.adaptive_steps import estimated_steps
+from viscontact.mechanics.time_integration.step_estimate import estimated_steps
 from viscontact.mechanics.time_integration.dissipation import heat_of_step
 from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
