@@ -7,7 +7,6 @@ import numpy as np
 import viscontact as vc
 from closeness import close_to
 from viscontact.bodies.materials.compliance import SeriesCompliance
-from viscontact.mechanics.time_integration.step_estimate import estimated_steps
 from viscontact.mechanics.time_integration.dissipation import heat_of_step
 from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import snap_to_kink
@@ -15,6 +14,7 @@ from viscontact.mechanics.time_integration.hereditary_integral import is_resolve
 from viscontact.mechanics.time_integration.moving_times import moving_times
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.mechanics.time_integration.run_times import run_instants
+from viscontact.mechanics.time_integration.step_estimate import estimated_steps
 from viscontact.mechanics.time_integration.step_shape import longest_smooth_rise
 
 ELASTIC = SeriesCompliance(1.0, (), ())
