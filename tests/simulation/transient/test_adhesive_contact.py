@@ -111,6 +111,28 @@ def test_work_of_a_cycle_is_what_the_jumps_lose(loop):
     assert 0 < lost < 0.05 * FORCE * DEPTH
 
 
+@pytest.mark.slow
+def test_work_of_a_cycle_is_the_energy_that_the_jumps_lose():
+    # Elastic energy less that of adhesion, right before and right after each jump.
+    where, law = grid(160, 9.0), vc.Adhesion(WORK, range=RANGE / 2)
+
+    def found(times, fields):
+        return vc.simulate(
+            *(SPHERE, GEL, cycle(0.8, -1.6), where, times),
+            **{"adhesion": law, "errors": False, "fields": fields},
+        )
+
+    loop = found(np.linspace(0.0, 2.0, 401), "none")
+    jumps = np.array(loop.attrs["event_times"])
+    beside = np.sort(np.concatenate([jumps - 3e-5, jumps + 3e-5]))
+    states = found(np.concatenate([[0.0], beside, [2.0]]), "all")
+    elastic = (states.pressure * states.displacement).sum(("x", "y")) * where.cell_area / 2
+    energy = (elastic - states.adhesion_energy).values[1:-1]
+    lost = energy[0] - energy[1] + energy[2] - energy[3]
+    assert lost > 0.2 * FORCE * DEPTH
+    assert float(loop.work[-1] - loop.work[0]) == close_to(lost, rel=0.01)
+
+
 def test_force_beyond_the_pull_off_force_ends_the_run():
     load = vc.ForceHistory([0.0, 1.0], [0.0, -1.75 * FORCE])
     found = run(load, np.linspace(0.0, 1.0, 11))
