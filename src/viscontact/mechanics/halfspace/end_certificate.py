@@ -27,14 +27,14 @@ DEPTHS = 20
 
 #: Nodes of panels of wave numbers along the face, whose ends double, and the first of these over
 #: the inverse of the grid's size.
-ALONG, FIRST = 5, 0.05
+ALONG, FIRST = 3, 0.05
 
 #: Decay of the shortest waves at the first depth, in powers of e.
-DECAYED = 14.0
+DECAYED = 11.0
 
 #: Waves across the face of a body that goes on: nodes of panels, first panel, and length of panels,
 #: both over the inverse of the body's length on the grid.
-ACROSS, FIRST_ACROSS, TURNS = 6, 1e-3, 5.0
+ACROSS, FIRST_ACROSS, TURNS = 8, 1e-3, 9.0
 
 #: First place of panels of the surface, in cells, and ratio of the ends of a panel.
 NEAREST, RATIO = 1e-6, 6.0
@@ -130,6 +130,8 @@ def _left_on(
     long = waves * half < table.HIGHEST_WAVE
     # The table of the operator ends there, and longer waves count as its longest one.
     longest = np.maximum(waves[long], table.LOWEST_WAVE / half)
+    if len(faces) > 1 and np.array_equal(*loads):  # even about the middle, so that both are alike
+        faces, loads = faces[:1], loads[:1]
     left = np.empty((len(faces), len(waves), len(depths)))
     for index, (face, own) in enumerate(zip(faces, loads, strict=True)):
         left[index, ~long] = _beside_one_end(ratio, face, own[~long], waves[~long], depths)

@@ -18,11 +18,15 @@ import math
 from dataclasses import field, replace
 
 import numpy as np
-import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Complexes, Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.backend.transforms import fast_length
+from viscontact.backend.transforms import (
+    Transforms,
+    fast_length,
+    fastest_transforms,
+    transforms_by,
+)
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.free_end import (
     HIGHEST,
@@ -181,9 +185,11 @@ class EndCorrection:
         *,
         mirrored: bool = False,
         single: bool = False,
+        transforms: Transforms | None = None,
     ) -> None:
         """Take some rows of the basis and a number of columns, half of them if `mirrored`."""
         number = np.float32 if single else np.float64
+        self._transforms = transforms or transforms_by(fastest_transforms())
         self._basis = np.ascontiguousarray(near.basis[rows], number)
         self._mirrored = mirrored
         self._length = fast_length(2 * columns - 1)
@@ -199,10 +205,10 @@ class EndCorrection:
         columns = parts.shape[1]
         if self._mirrored:
             parts = np.concatenate([parts[:, ::-1], parts], axis=1)
-        waves = np.ascontiguousarray(scipy.fft.rfft(parts, self._length, axis=1).T)
+        waves = np.ascontiguousarray(padded_waves(parts, self._length, self._transforms).T)
         reals = waves.view(self._basis.dtype).reshape(*waves.shape, 2)
         moved = np.ascontiguousarray(self._symbol @ reals).view(waves.dtype)[..., 0]
-        found = scipy.fft.irfft(moved.T, self._length, axis=1)
+        found = of_waves(moved.T, self._length, self._transforms)
         start = columns if self._mirrored else 0
         return np.asarray(self._basis @ found[:, start : start + columns])
 
@@ -219,22 +225,40 @@ class MovingEndCorrection:
         compliance: MovingCompliance,
         *,
         single: bool = False,
+        transforms: Transforms | None = None,
     ) -> None:
         """Take some rows of the basis and a number of columns of an edge along y [m]."""
         number = np.float32 if single else np.float64
+        self._transforms = transforms or transforms_by(fastest_transforms())
         self._basis = np.ascontiguousarray(near.basis[rows], number)
         self._length = fast_length(2 * columns - 1)
         table = near.moving_coefficients(columns, edge, compliance)
         kernel = np.zeros((self._length, *table.shape[1:]))
         kernel[:columns] = table[columns - 1 :]
         kernel[self._length - columns + 1 :] = table[: columns - 1]
-        symbol: Complexes = scipy.fft.rfft(kernel, axis=0)
-        self._symbol = symbol.astype(np.result_type(number, np.complex64))
+        flat = kernel.reshape(self._length, -1).T
+        symbol = padded_waves(np.ascontiguousarray(flat), self._length, self._transforms)
+        self._symbol = symbol.T.reshape(-1, *table.shape[1:]).astype(np.result_type(number, np.complex64))
 
     def apply(self, pressure: Numbers) -> Numbers:
         """Displacement [m] times the scale of the compliance, under a pressure [Pa]."""
         parts = self._basis.T @ pressure.astype(self._basis.dtype, copy=False)
-        waves = scipy.fft.rfft(parts, self._length, axis=1).T
+        waves = padded_waves(parts, self._length, self._transforms).T
         moved = (self._symbol @ waves[..., None])[..., 0]
-        found = scipy.fft.irfft(moved.T, self._length, axis=1)
+        found = of_waves(moved.T, self._length, self._transforms)
         return np.asarray(self._basis @ found[:, : parts.shape[1]])
+
+
+def padded_waves(parts: Numbers, length: int, transforms: Transforms) -> Complexes:
+    """Fourier transforms of lines that are padded to a length; shape (lines, waves)."""
+    padded = np.zeros((len(parts), length), parts.dtype)
+    padded[:, : parts.shape[1]] = parts
+    kind = np.result_type(parts.dtype, np.complex64)
+    spectrum = np.empty((len(parts), length // 2 + 1), kind)
+    return np.asarray(transforms.real_forward(padded, spectrum, 1))
+
+
+def of_waves(waves: Complexes, length: int, transforms: Transforms) -> Numbers:
+    """Lines of a length of their Fourier transforms; shape (lines, length)."""
+    lines = np.empty((len(waves), length), waves.real.dtype)
+    return transforms.real_inverse(np.ascontiguousarray(waves), lines, 1)

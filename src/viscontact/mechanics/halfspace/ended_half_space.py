@@ -368,7 +368,8 @@ class EndedConvolution:
             else np.zeros((count, self.shape[1]), np.float32 if single else np.float64)
         )
         own = slice(begin - ended.first, end - ended.first)
-        self._corrections = _corrections_of(ended, own, ny, cell_size, mirrored, single)
+        shared = {"single": single, "transforms": options["transforms"]}
+        self._corrections = _corrections_of(ended, own, ny, cell_size, mirrored, shared)
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
@@ -396,20 +397,20 @@ def _corrections_of(
     columns: int,
     cell_size: tuple[float, float],
     mirrored: bool,
-    single: bool,
+    options: dict[str, Any],
 ) -> list[EndCorrection | MovingEndCorrection]:
-    """What free ends add on rows of the body and a number of columns."""
+    """What free ends add on rows of the body and a number of columns, with options of all."""
     if ended.repeats:
         period = halfspace.periodic_ends.PeriodicEndCorrection
-        return [period(basis, rows, columns, single=single) for basis in ended.periodic]
+        return [period(basis, rows, columns, **options) for basis in ended.periodic]
     found: list[EndCorrection | MovingEndCorrection] = []
     for basis in ended.bases:
         if ended.moving is None:
             shared = (basis, rows, columns, cell_size)
-            found.append(halfspace.EndCorrection(*shared, mirrored=mirrored, single=single))
+            found.append(halfspace.EndCorrection(*shared, mirrored=mirrored, **options))
         else:
             moved = (basis, rows, columns, cell_size[1], ended.moving)
-            found.append(halfspace.MovingEndCorrection(*moved, single=single))
+            found.append(halfspace.MovingEndCorrection(*moved, **options))
     return found
 
 

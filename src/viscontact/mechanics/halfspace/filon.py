@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy  # its special functions are imported at their first use
 from numpy.polynomial.legendre import leggauss, legvander
 
 from viscontact.backend.arrays import Complexes, Floats
+from viscontact.mechanics.halfspace.bessel_functions import spherical_bessel
 
 
 def panel_nodes(edges: Floats, nodes: int) -> tuple[Floats, Floats]:
@@ -24,7 +24,7 @@ def oscillation_weights(edges: Floats, nodes: int, frequencies: Floats) -> Compl
     middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
     orders = np.arange(nodes)
     expansion = (2 * orders + 1) * legvander(places, nodes - 1) * weights[:, None]
-    bessel = scipy.special.spherical_jn(orders, np.abs(frequencies)[:, None, None] * half[:, None])
+    bessel = spherical_bessel(nodes, np.abs(frequencies)[:, None] * half)
     phase = np.exp(1j * np.abs(frequencies)[:, None] * middle)[..., None] * 1j**orders
     found = np.einsum("pwn,mn->pwm", phase * bessel, expansion) * half[:, None]
     found = found.reshape(len(frequencies), -1)

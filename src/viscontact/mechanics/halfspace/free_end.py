@@ -24,10 +24,10 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.halfspace.bessel_functions import modified_bessel
 from viscontact.mechanics.halfspace.cubic_curves import CubicCurves
 from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
 
@@ -131,9 +131,7 @@ def _stress(panels: LogPanels, poisson_ratio: float) -> Floats:
     """Stress s on the other face at depths Z (columns) of unit line loads at X (rows)."""
     along, depth = panels.places[:, None], panels.places
     distance = np.hypot(along, depth)
-    order_0, order_1 = (
-        _of_both_sides(function, distance) for function in (scipy.special.k0, scipy.special.k1)
-    )
+    order_0, order_1 = _of_both_sides(distance)
     # ∫_Z^∞ K_0(√(X² + t²)) dt from its value at Z = 0, (π/2) exp(-X), would lose digits far away.
     below = panels.integrals_until(order_0.T).T
     beyond = panels.weights @ order_0.T
@@ -143,19 +141,19 @@ def _stress(panels: LogPanels, poisson_ratio: float) -> Floats:
     return np.asarray((radial - (1 - 2 * poisson_ratio) * tail) / np.pi)
 
 
-def _of_both_sides(function: Callable[[Floats], Floats], places: Floats) -> Floats:
-    """Values of a slow function at the entries of a matrix that is symmetric."""
-    found = np.empty_like(places)
+def _of_both_sides(places: Floats) -> tuple[Floats, Floats]:
+    """K_0 and K_1 at the entries of a matrix that is symmetric."""
     upper = np.triu_indices(len(places))
-    found[upper] = found.T[upper] = function(places[upper])
-    return found
+    found = np.empty((2, *places.shape))
+    for each, values in zip(found, modified_bessel(places[upper]), strict=True):
+        each[upper] = each.T[upper] = values
+    return found[0], found[1]
 
 
 def _displacement(panels: LogPanels) -> Floats:
     """Displacement at the nodes of the mirrored half-space under a density at the nodes."""
-    image = _of_both_sides(scipy.special.k0, panels.places[:, None] + panels.places)
-    image *= panels.weights
-    own = panels.weights_of_logarithm(lambda distance: np.asarray(scipy.special.k0(distance)))
+    image = _of_both_sides(panels.places[:, None] + panels.places)[0] * panels.weights
+    own = panels.weights_of_logarithm(lambda distance: modified_bessel(distance)[0])
     return np.asarray(2 / np.pi * (own + image))
 
 

@@ -54,6 +54,10 @@ class LogPanels:
         """Weights of the nodes in an integral over X."""
         return (np.diff(self.edges)[:, None] / 2 * _W).ravel() * self.places
 
+    def integrals_from_zero(self, values: Floats) -> Floats:
+        """∫ f dX from X = 0 to each node, of values at the nodes, shape (nodes, ...)."""
+        return self.integrals_until(values) + np.exp(self.edges[0]) * values[0]
+
     def integrals_until(self, values: Floats) -> Floats:
         """∫ f dX from the first edge to each node, of values at the nodes, shape (nodes, ...)."""
         panels = (values.T * self.places).T.reshape(len(self.edges) - 1, NODES, -1)

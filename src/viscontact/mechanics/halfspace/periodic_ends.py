@@ -16,7 +16,7 @@ from numpy.polynomial.legendre import leggauss, legvander
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.backend.transforms import Field
+from viscontact.backend.transforms import Field, Transforms
 from viscontact.mechanics.halfspace.end_correction import NODES, EndBasis, EndCorrection, end_basis
 from viscontact.mechanics.halfspace.free_end import pivoted_cholesky
 from viscontact.mechanics.halfspace.log_panels import LogPanels
@@ -195,9 +195,18 @@ def _symbols(waves: EndBasis, edge: float, columns: int) -> Floats:
 class PeriodicEndCorrection(EndCorrection):
     """Displacement beyond the mirrored half-space near free ends, of all columns of a period."""
 
-    def __init__(self, near: PeriodicBasis, rows: slice, columns: int, *, single: bool) -> None:
+    def __init__(
+        self,
+        near: PeriodicBasis,
+        rows: slice,
+        columns: int,
+        *,
+        single: bool,
+        transforms: Transforms,
+    ) -> None:
         """Take some rows of the basis."""
         number = np.float32 if single else np.float64
+        self._transforms = transforms
         self._basis = np.ascontiguousarray(near.basis[rows], number)
         self._mirrored, self._length = False, columns
         self._symbol = near.symbols.astype(number)

@@ -12,7 +12,9 @@ In units of 1/k, at the distance X from the face, with r² = 1 + ζ² and w = k 
 
     T = 2 s(X, Z) + (2/π) ∫ [(r² - 2ν) sin(ζZ)/ζ + r² Z cos(ζZ)] Q(r) dζ/r - (1 - 2ν) Q(1),
 
-where s is the stress by the load and its image about one face (see `free_end`), and Q the sum of
+where sin(ζZ)/ζ is taken as the integral of cos(ζZ) from 0 to Z,
+
+s is the stress by the load and its image about one face (see `free_end`), and Q the sum of
 exp(-r D) over all further images, of distances D. F and C are transforms of those of a slab
 (S. P. Timoshenko & J. N. Goodier, Theory of Elasticity, 1970, art. 24, with waves along y):
 
@@ -31,10 +33,10 @@ from __future__ import annotations
 from functools import cached_property, lru_cache
 
 import numpy as np
-import scipy  # its special functions are imported at their first use
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.halfspace.bessel_functions import modified_bessel
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.log_chebyshev import LogChebyshev
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
@@ -55,7 +57,7 @@ ON_FACE, ON_SURFACE, RATIO, DEEPEST = 1e-10, 1e-9, 6.0, 25.0
 
 #: Nodes of panels of ζ; first panel, ratio and end of those of images, and of those of C.
 NODES = 10
-OF_IMAGES, IMAGE_RATIO = (1e-7, 50.0), 2.0
+OF_IMAGES, IMAGE_RATIO = (0.5, 50.0), 2.0
 OF_FACES, FACE_RATIO = (0.5, 10.0), 4.0
 
 #: Products of r and k W from which on images are left out.
@@ -195,10 +197,10 @@ def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
     # ∫ K_0 from Z on, not from ∫ until Z and its whole, which would lose digits far away.
     tail = face.panels.weights @ order_0 - face.panels.integrals_until(order_0)
     near = along**2 * depth * radial - (1 - 2 * poisson_ratio) * tail
-    zeta, cosines, sines = face.images(wave)
+    zeta, cosines = face.images(wave)
     rate = np.hypot(1.0, zeta)
     further = _images(rate, wave, along, sign)
-    far = (sines * ((rate**2 - 2 * poisson_ratio) / (zeta * rate))) @ further
+    far = face.panels.integrals_from_zero((cosines * (rate - 2 * poisson_ratio / rate)) @ further)
     far += depth * ((cosines * rate) @ further)
     constant = (1 - 2 * poisson_ratio) * _images(np.ones(1), wave, along, sign)
     return np.asarray(2 / np.pi * (near + far) - constant)
@@ -215,10 +217,10 @@ def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats
     face, surface = face_of_strips(), surface_panels()
     depth, along = face.panels.places, wave * surface.places[:, None]
     order_0, radial = (each.T for each in _bessel_functions(wave))
-    until = wave * (surface.integrals_until(order_0) + ON_SURFACE * scipy.special.k0(depth))
+    until = wave * surface.integrals_from_zero(order_0)
     tail = np.pi / 2 * np.exp(-depth) - until
     near = depth**2 * along * radial - (1 - 2 * poisson_ratio) * tail
-    zeta, cosines, _ = face.images(wave)
+    zeta, cosines = face.images(wave)
     rate = np.hypot(1.0, zeta)
     x, xi = rate * wave, rate * (wave - along)
     sinh, cosh, denominator, decay = slab(x, sign)
@@ -235,8 +237,8 @@ def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats
 def _bessel_functions(wave: float) -> tuple[Floats, Floats]:
     """K_0(R) and K_2(R)/R² between nodes of the face (rows) and of the surface (columns)."""
     distance = np.hypot(face_of_strips().panels.places[:, None], wave * surface_panels().places)
-    order_0 = scipy.special.k0(distance)
-    order_2 = order_0 + 2 * scipy.special.k1(distance) / distance
+    order_0, order_1 = modified_bessel(distance)
+    order_2 = order_0 + 2 * order_1 / distance
     return order_0, np.asarray(order_2 / distance**2)
 
 
@@ -247,15 +249,14 @@ class Face:
     panels: LogPanels
     image_waves: Floats
     cosines: Floats  # Filon's weights of ∫ f cos(ζZ) dζ over the waves of images
-    sines: Floats  # likewise of sin(ζZ)
     waves: Floats
     wave_weights: Floats  # of an integral over the waves
     to_waves: Floats  # weights of ∫ f cos(ζZ) dZ, shape (waves, nodes)
 
-    def images(self, wave: float) -> tuple[Floats, Floats, Floats]:
-        """Waves that images have at w = k W, with weights of their cosines and sines."""
+    def images(self, wave: float) -> tuple[Floats, Floats]:
+        """Waves that images have at w = k W, with weights of their cosines."""
         kept = slice(0, int(np.searchsorted(self.image_waves, FAR / wave)))
-        return self.image_waves[kept], self.cosines[:, kept], self.sines[:, kept]
+        return self.image_waves[kept], self.cosines[:, kept]
 
 
 @lru_cache(maxsize=1)
@@ -276,7 +277,6 @@ def face_of_strips() -> Face:
         panels,
         panel_nodes(borders, NODES)[0],
         waves.real.copy(),
-        waves.imag.copy(),
         zeta,
         weights,
         cosine_transform(panels, zeta),
