@@ -33,7 +33,7 @@ from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
 
 #: First and last place of the panels, and ratio of the ends of a panel. What a load sends nearer
 #: to the corner than the first place is left out: a part LOWEST / X of the load.
-LOWEST, HIGHEST, RATIO = 1e-13, 25.0, 2.5
+LOWEST, HIGHEST, RATIO = 1e-13, 25.0, 4.0
 
 #: Panels nearer to the corner than this are not tabulated; nearer places count as this.
 NEAREST = 1e-7

@@ -88,7 +88,7 @@ def _stress_on_surface(*, odd: bool) -> Floats:
     face, sign = face_of_strips(), -1.0 if odd else 1.0
     depth, along = face.panels.places, surface_panels().places[:, None]
     near = 2 * depth**2 * along / np.hypot(depth, along) ** 4
-    zeta, cosines, _ = face.images(1.0)
+    zeta, cosines = face.images(1.0)
     sinh, cosh, denominator, decay = slab(zeta, sign)
     xi = zeta * (1 - along)
     own, other = np.exp(-along * zeta), sign * decay * np.exp(along * zeta)

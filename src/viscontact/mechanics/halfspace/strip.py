@@ -44,7 +44,7 @@ from viscontact.mechanics.halfspace.strip_slab import slab
 
 #: Range of k W in which faces act on each other and G is tabulated, and number of the places in it,
 #: Chebyshev's in ln k W. Above, each face is the end of a body that goes on.
-LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 18
+LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 20
 SERIES = LogChebyshev(LOWEST_WAVE, HIGHEST_WAVE, WAVES)
 
 #: Lowest k W at which loads on the faces are solved, even and odd ones, which grow as 1/(k W), with
@@ -53,12 +53,12 @@ LONGEST_WAVES = 0.002, 0.02
 
 #: First place on the faces, in 1/k, and on the surface, in W; ratio of the ends of panels; last
 #: place on the faces, in 1/k.
-ON_FACE, ON_SURFACE, RATIO, DEEPEST = 1e-10, 1e-9, 6.0, 25.0
+ON_FACE, ON_SURFACE, RATIO, DEEPEST = 1e-10, 1e-9, 8.0, 25.0
 
 #: Nodes of panels of ζ; first panel, ratio and end of those of images, and of those of C.
 NODES = 10
 OF_IMAGES, IMAGE_RATIO = (0.5, 50.0), 2.0
-OF_FACES, FACE_RATIO = (0.5, 10.0), 4.0
+OF_FACES, FACE_RATIO = (0.5, 10.0), 6.0
 
 #: Products of r and k W from which on images are left out.
 FAR = 50.0
