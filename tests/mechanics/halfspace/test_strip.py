@@ -12,6 +12,7 @@ from closeness import close_to
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.free_end import end_functions
+from viscontact.mechanics.halfspace.log_panels import NODES
 from viscontact.mechanics.halfspace.strip import HIGHEST_WAVE, StripTable, strip_table
 from viscontact.mechanics.halfspace.strip_basis import StripRows, strip_basis
 
@@ -23,8 +24,16 @@ PLACES = np.array([0.2, 0.8, 1.0])
 def _at(table: StripTable, places: Floats) -> Floats:
     """Values at distances from a face in half lengths, of values at the nodes of a table."""
     nodes = table.panels.logarithms
-    along = np.log(np.maximum(places, 1e-6))
-    return np.asarray(scipy.interpolate.CubicSpline(nodes, np.eye(len(nodes)))(along))
+    along, edges = np.log(np.maximum(places, 1e-6)), table.panels.edges
+    found = np.zeros((len(places), len(nodes)))
+    for row, place in zip(found, along, strict=True):
+        panel = min(int(np.searchsorted(edges, place, side="right")) - 1, len(edges) - 2)
+        own = slice(panel * NODES, (panel + 1) * NODES)
+        row[own] = [
+            float(scipy.interpolate.BarycentricInterpolator(nodes[own], each)(place))
+            for each in np.eye(NODES)
+        ]
+    return found
 
 
 def _added(ratio: float, wave: float, *, odd: bool, at: Floats, load: Floats) -> Floats:

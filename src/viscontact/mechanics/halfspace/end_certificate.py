@@ -105,12 +105,14 @@ def _faces_of(response: EndedResponse, pressure: Floats, grid: Grid) -> list[Fac
     rows = np.flatnonzero(inside & (middles < (np.inf if after is None else after)))
     if not rows.size:
         return []
-    borders = edges[rows[0] : rows[-1] + 2]
+    borders, cell = edges[rows[0] : rows[-1] + 2], grid.cell_size[0]
     found = []
+    # In whole cells, so that both ends have the same waves.
     if response.free[0] and before is not None:
-        found.append(Face(pressure[rows], np.maximum(borders - before, 0.0)))
+        found.append(Face(pressure[rows], cell * np.abs(np.rint((borders - before) / cell))))
     if response.free[1] and after is not None:
-        found.append(Face(pressure[rows[::-1]], np.maximum((after - borders)[::-1], 0.0)))
+        distances = np.abs(np.rint((after - borders[::-1]) / cell))
+        found.append(Face(pressure[rows[::-1]], cell * distances))
     return found
 
 

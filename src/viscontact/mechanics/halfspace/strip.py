@@ -191,55 +191,72 @@ def freeing_loads(wave: float, poisson_ratio: float, sign: float) -> tuple[Float
 
 def _stress_on_face(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """T: normal stress at nodes of the face (rows) under lines at distances X from it (columns)."""
-    face, along = face_of_strips(), wave * surface_panels().places
+    face, along, parts = face_of_strips(), wave * surface_panels().places, _parts_of(wave)
     depth = face.panels.places[:, None]
-    order_0, radial = _bessel_functions(wave)
-    # ∫ K_0 from Z on, not from ∫ until Z and its whole, which would lose digits far away.
-    tail = face.panels.weights @ order_0 - face.panels.integrals_until(order_0)
-    near = along**2 * depth * radial - (1 - 2 * poisson_ratio) * tail
-    zeta, cosines = face.images(wave)
-    rate = np.hypot(1.0, zeta)
-    further = _images(rate, wave, along, sign)
+    near = along**2 * depth * parts.radial - (1 - 2 * poisson_ratio) * parts.below
+    _, cosines = face.images(wave)
+    rate = parts.rate
+    further = _images(rate * wave, parts, sign)
     far = face.panels.integrals_from_zero((cosines * (rate - 2 * poisson_ratio / rate)) @ further)
     far += depth * ((cosines * rate) @ further)
-    constant = (1 - 2 * poisson_ratio) * _images(np.ones(1), wave, along, sign)
+    once = np.exp(along - 2 * wave) + np.exp(-along - 2 * wave)
+    constant = (1 - 2 * poisson_ratio) * sign * once / (1 - sign * np.exp(-2 * wave))
     return np.asarray(2 / np.pi * (near + far) - constant)
 
 
-def _images(rate: Floats, wave: float, along: Floats, sign: float) -> Floats:
+def _images(x: Floats, parts: _Parts, sign: float) -> Floats:
     """Sum of exp(-r D) over images beyond that about the face; shape (rates, places)."""
-    once = np.exp(-np.outer(rate, 2 * wave - along)) + np.exp(-np.outer(rate, 2 * wave + along))
-    return np.asarray(sign * once / (1 - sign * np.exp(-2 * rate * wave))[:, None])
+    decay = np.exp(-2 * x)[:, None]
+    return np.asarray(sign * (parts.back + decay * parts.own) / (1 - sign * decay))
 
 
 def _stress_on_surface(wave: float, poisson_ratio: float, sign: float) -> Floats:
     """F: normal stress at distances X from a face (rows) under lines at its nodes (columns)."""
-    face, surface = face_of_strips(), surface_panels()
-    depth, along = face.panels.places, wave * surface.places[:, None]
-    order_0, radial = (each.T for each in _bessel_functions(wave))
-    until = wave * surface.integrals_from_zero(order_0)
-    tail = np.pi / 2 * np.exp(-depth) - until
-    near = depth**2 * along * radial - (1 - 2 * poisson_ratio) * tail
+    face, parts = face_of_strips(), _parts_of(wave)
+    depth, along = face.panels.places[:, None], wave * surface_panels().places
+    near = depth**2 * along * parts.radial - (1 - 2 * poisson_ratio) * parts.beyond
     zeta, cosines = face.images(wave)
-    rate = np.hypot(1.0, zeta)
-    x, xi = rate * wave, rate * (wave - along)
-    sinh, cosh, denominator, decay = slab(x, sign)
-    own, other = np.exp(-along * rate), sign * decay * np.exp(along * rate)
-    half_sum = sinh * (own + other) / denominator
-    across = ((sinh + x * cosh) * (own + other) - xi * sinh * (own - other)) / denominator
-    along_z, along_y = (zeta / rate) ** 2, 2 * poisson_ratio / rate**2
+    rate, own, other = parts.rate[:, None], parts.own, sign * parts.back
+    x = rate * wave
+    sinh, cosh, denominator, _ = slab(x, sign)
+    xi = x - rate * along
+    both = own + other
+    half_sum = sinh / denominator * both
+    across = ((sinh + x * cosh) * both - xi * sinh * (own - other)) / denominator
+    along_z, along_y = (zeta / parts.rate)[:, None] ** 2, 2 * poisson_ratio / rate**2
     of_slab = along_z * (2 * half_sum - across) + along_y * half_sum
-    one_face = (along_z * (1 - along * rate) + along_y) * own
-    return np.asarray(2 / np.pi * (near + (of_slab - one_face) @ cosines.T))
+    one_face = (along_z * (1 - rate * along) + along_y) * own
+    return np.asarray(2 / np.pi * (near + cosines @ (of_slab - one_face))).T
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """What even and odd loads, and all Poisson's ratios, share at one w = k W."""
+
+    radial: Floats  # K_2(R)/R², between nodes of the face (rows) and of the surface (columns)
+    below: Floats  # ∫ K_0 from Z on, likewise
+    beyond: Floats  # ∫ K_0 from X on, likewise
+    rate: Floats  # r of the waves of images
+    own: Floats  # exp(-r X), shape (waves, nodes of the surface)
+    back: Floats  # exp(-r (2 W - X)), likewise
 
 
 @lru_cache(maxsize=WAVES)
-def _bessel_functions(wave: float) -> tuple[Floats, Floats]:
-    """K_0(R) and K_2(R)/R² between nodes of the face (rows) and of the surface (columns)."""
-    distance = np.hypot(face_of_strips().panels.places[:, None], wave * surface_panels().places)
+def _parts_of(wave: float) -> _Parts:
+    """The parts at w = k W."""
+    face, surface = face_of_strips(), surface_panels()
+    depth, along = face.panels.places, wave * surface.places
+    distance = np.hypot(depth[:, None], along)
     order_0, order_1 = modified_bessel(distance)
-    order_2 = order_0 + 2 * order_1 / distance
-    return order_0, np.asarray(order_2 / distance**2)
+    radial = (order_0 + 2 * order_1 / distance) / distance**2
+    # From Z on, not until Z and the whole, which would lose digits far away.
+    below = face.panels.weights @ order_0 - face.panels.integrals_until(order_0)
+    until = wave * surface.integrals_from_zero(order_0.T).T
+    beyond = np.pi / 2 * np.exp(-depth)[:, None] - until
+    rate = np.hypot(1.0, face.images(wave)[0])
+    paths = np.multiply.outer(rate, along)
+    back = np.exp(paths - 2 * wave * rate[:, None])
+    return _Parts(radial, below, beyond, rate, np.exp(-paths), back)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -51,6 +52,16 @@ def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float,
 
 def straight_ends(run: RunSetup) -> tuple[float, float]:
     """Distances from the grid's centre to the body's straight ends along x and y, in cells."""
+    if run not in _KNOWN_ENDS:
+        _KNOWN_ENDS[run] = _straight_ends(run)
+    return _KNOWN_ENDS[run]
+
+
+#: Straight ends of runs, which several error bars ask for.
+_KNOWN_ENDS: WeakKeyDictionary[RunSetup, tuple[float, float]] = WeakKeyDictionary()
+
+
+def _straight_ends(run: RunSetup) -> tuple[float, float]:
     # Those on +x and +y, or else on -x and -y; inf where there is none: the end of a round body has
     # no single place in a cell, nor has the end of a body within a period.
     inside = np.isfinite(run.open_gap)
