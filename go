@@ -185,6 +185,7 @@ BENCHMARKS = {
     "adhesion": "adhesion.py",
     "steady": "steady.py",
     "layers": "layers.py",
+    "ends": "ends.py",
     "error-bars": "error_bars.py",
     "temperature": "temperature.py",
     "indentation-intervals": "indentation_intervals.py",

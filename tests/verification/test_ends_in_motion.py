@@ -45,7 +45,7 @@ def test_without_poisson_effect_rolling_between_two_free_ends_is_a_line_contact(
     whole = np.broadcast_to(line.pressure[0], (16, 128))
     assert found.pressure[0].values[2:-2] == close_to(whole, abs=1e-4 * peak)
     assert np.isnan(found.approach[0])
-    assert found.attrs["ends_error"] < 1e-5
+    assert found.attrs["ends_error"] < 1e-4
 
 
 @pytest.mark.parametrize("speed", [1e-5, 3e-3, 0.3])

@@ -139,7 +139,7 @@ def test_a_cylinder_along_a_strip_is_a_line_contact_without_poissons_effect() ->
     pressure = ended.pressure[0].values[2:-2]
     expected = np.broadcast_to(line.pressure[0].values, pressure.shape)
     assert pressure == close_to(expected, rel=1e-5, abs=1e-5 * expected.max())
-    assert 0 < ended.attrs["ends_error"] < 1e-5
+    assert 0 < ended.attrs["ends_error"] < 1e-4
 
 
 def test_a_row_of_spheres_between_walls_is_a_grid_with_two_periods() -> None:

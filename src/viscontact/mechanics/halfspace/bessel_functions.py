@@ -98,7 +98,9 @@ def _small(count: int, x: Floats) -> Floats:
     squared, found = x**2 / 2, np.empty((x.size, count))
     power = np.ones(x.shape)
     for order in range(count):
-        terms = np.cumprod([1.0] + [-1 / (k * (2 * (order + k) + 1)) for k in range(1, SMALL_TERMS)])
+        terms = np.cumprod(
+            [1.0] + [-1 / (k * (2 * (order + k) + 1)) for k in range(1, SMALL_TERMS)]
+        )
         found[:, order] = power * polynomial.polyval(squared, terms)
         power = power * x / (2 * order + 3)
     return found

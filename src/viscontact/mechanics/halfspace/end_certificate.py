@@ -132,7 +132,8 @@ def _left_on(
     long = waves * half < table.HIGHEST_WAVE
     # The table of the operator ends there, and longer waves count as its longest one.
     longest = np.maximum(waves[long], table.LOWEST_WAVE / half)
-    if len(faces) > 1 and np.array_equal(*loads):  # even about the middle, so that both are alike
+    if len(faces) > 1 and np.array_equal(loads[0], loads[1]):
+        # Even about the middle, so that both are alike.
         faces, loads = faces[:1], loads[:1]
     left = np.empty((len(faces), len(waves), len(depths)))
     for index, (face, own) in enumerate(zip(faces, loads, strict=True)):

@@ -56,7 +56,7 @@ class LogPanels:
 
     def integrals_from_zero(self, values: Floats) -> Floats:
         """∫ f dX from X = 0 to each node, of values at the nodes, shape (nodes, ...)."""
-        return self.integrals_until(values) + np.exp(self.edges[0]) * values[0]
+        return np.asarray(self.integrals_until(values) + np.exp(self.edges[0]) * values[0])
 
     def integrals_until(self, values: Floats) -> Floats:
         """∫ f dX from the first edge to each node, of values at the nodes, shape (nodes, ...)."""

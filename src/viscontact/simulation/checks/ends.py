@@ -198,9 +198,10 @@ def tilts_from_datum(problem: Problem, grid: Grid, open_gap: Floats) -> bool:
 
 
 def error_of_ends(problem: Problem, *, even: bool) -> float:
-    """Part of the displacement by free ends that their operator may miss [-].
+    """Part of the displacement that the operator of free ends may miss [-].
 
-    With `even`, pressures are even about x = 0 only.
+    Over the largest displacement by them or by the half-space. With `even`, pressures are even
+    about x = 0 only.
     """
     errors = [0.0]
     for body, material in zip(problem.ends, problem.bodies, strict=True):

@@ -1,0 +1,25 @@
+"""Bessel functions of arrays against those of SciPy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy
+
+from closeness import close_to
+from viscontact.mechanics.halfspace.bessel_functions import modified_bessel, spherical_bessel
+
+
+def test_modified_bessel_functions_are_those_of_scipy_from_the_corner_to_far_away() -> None:
+    places = np.geomspace(1e-13, 100.0, 4001)
+    order_0, order_1 = modified_bessel(places)
+    assert order_0 == close_to(scipy.special.k0(places), rel=1e-11)
+    assert order_1 == close_to(scipy.special.k1(places), rel=1e-11)
+
+
+@pytest.mark.parametrize("count", [2, 6, 8, 10])
+def test_spherical_bessel_functions_are_those_of_scipy_at_all_places(count: int) -> None:
+    places = np.append(0.0, np.geomspace(1e-9, 1e5, 4001))
+    expected = scipy.special.spherical_jn(np.arange(count), places[:, None])
+    # By power series, quadrature and recurrence, which meet at 0.7 and at the number of orders.
+    assert spherical_bessel(count, places) == close_to(expected, abs=1e-14)
