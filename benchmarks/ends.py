@@ -64,7 +64,9 @@ WAYS = {
 def seconds(words: tuple[str, ...], case: Path, *, core: bool) -> float:
     """CPU time of one new process [s]."""
     kept = {name: each for name, each in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    kept |= {"OMP_NUM_THREADS": "1", "VISCONTACT_CORE": "on" if core else "off"}
+    kept["OMP_NUM_THREADS"] = "1"
+    if not core:
+        kept["VISCONTACT_CORE"] = "off"
     before = psutil.Process().cpu_times()
     command = [sys.executable, *words, str(case)]
     subprocess.run(command, check=True, capture_output=True, cwd=case.parent, env=kept)
