@@ -63,12 +63,13 @@ def _beside_end(
     cells: int, distance: float, ratio: float = 0.3, body: Any = None, **how: Any
 ) -> xr.Dataset:
     """Cylinder pressed at a distance from a free end, its contact about 67 µm wide."""
-    grid = vc.Grid((cells, 1), (160e-6, PERIOD), periodic=(False, True))
+    grid = vc.Grid((cells, 1), (160e-6, PERIOD), periodic=(False, True)) if cells else None
     compliance = (1 - 0.3**2) / 2.6
     law = vc.Elastic(80e9 * (1 - ratio) / 2 / compliance)
     own = vc.Material(law, ratio) if body is None else body
     ended = vc.Body(own, 1.0, centre=0.5 - distance, ends=BESIDE_END)
-    load = vc.step(20e3 * PERIOD, tilt_x=0.0)
+    # An automatic grid has a period of a metre.
+    load = vc.step(20e3 * (PERIOD if cells else 1.0), tilt_x=0.0)
     how.setdefault("times", [0.0])
     return vc.simulate(vc.Paraboloid(0.01, np.inf), ended, load, grid, **how)
 
@@ -108,6 +109,28 @@ def test_error_bars_beside_an_end_hold_on_finer_cells() -> None:
         assert missed < float(coarse[f"{name}_error"][0]) < 0.1 * float(fine[name][0])
     assert 0 < coarse.attrs["ends_error"] < 1e-9
     assert np.isnan(coarse.approach[0])
+
+
+@pytest.mark.parametrize("distance", [10e-6, 40e-6, 1e-3])
+def test_automatic_grids_of_line_contacts_end_cells_at_the_end(distance: float) -> None:
+    # Over the end, beside it and far from it: the contact is 67 µm wide.
+    chosen = _beside_end(0, distance)
+    border = (chosen.x.values[0] + distance) / np.diff(chosen.x.values[:2])[0] - 0.5
+    assert border == close_to(round(border), abs=1e-5)
+    cells = 1024 if distance < 1e-3 else 1000  # of which whole ones lie between contact and end
+    fine = _beside_end(cells, distance, errors=False)
+    for name in ("peak_pressure", "strip_width"):
+        missed = abs(float(chosen[name][0]) - float(fine[name][0]))
+        assert missed < float(chosen[f"{name}_error"][0]) < 0.02 * float(fine[name][0])
+
+
+def test_an_automatic_grid_holds_a_contact_over_the_whole_of_a_strip() -> None:
+    # A flat cylinder on a narrow strip is a punch that is wider than the strip: nearly a column.
+    strip, load = vc.Body(STEEL, 20e-6), vc.step(20e3)
+    found = vc.simulate(vc.Paraboloid(10.0, np.inf), strip, load, None, [0.0])
+    assert float(found.strip_width[0]) == close_to(20e-6, rel=1e-9)
+    inside = found.pressure.values[found.pressure.values > 0]
+    assert inside == close_to(np.full(inside.shape, 1e9), rel=1e-3)
 
 
 def test_a_line_contact_that_creeps_beside_an_end_begins_and_ends_as_elastic_ones() -> None:
@@ -184,7 +207,6 @@ CYLINDER, LINE_GRID = vc.Paraboloid(0.01, np.inf), vc.Grid((72, 1), (2.4e-3, 1e-
 @pytest.mark.parametrize(
     ("changes", "why"),
     [
-        ({"grid": None}, "grid: no grid is chosen for a contact that goes on along y"),
         ({"grid": vc.Grid((72, 8), (2.4e-3, 1e-3), (True, True))}, "grid.periodic: must be false"),
         ({"motion": vc.Travel([0.0, 1.0], y=[0.0, 1e-4])}, "repeats along y cannot move"),
         ({"load": vc.step(approach=1e-6)}, "has no datum"),

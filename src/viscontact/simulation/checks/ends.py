@@ -59,24 +59,10 @@ def check_ends(problem: Problem) -> None:
                 )
     _check_roller(problem)
     _check_layers(problem)
-    _check_line_grid(problem)
     supported = problem.ends_twice and problem.surface.is_supported
     if problem.ends_twice and not supported and problem.load.control != "force":
         raise ValueError(
             f"load.approach: {NO_DATUM}, and an approach cannot be prescribed; give the force"
-        )
-
-
-def _check_line_grid(problem: Problem) -> None:
-    """Refuse to choose a grid for a contact that goes on along y."""
-    if isinstance(problem.grid, Grid) or not problem.cut_indenter.endless[1]:
-        return
-    name = next(iter(problem.ended_bodies), None)
-    if name is not None:
-        raise ValueError(
-            f"grid: no grid is chosen for a contact that goes on along y on a body that ends along "
-            f"x ({name}.ends); give one with 'periodic: [false, true]', 'shape' and 'size', a "
-            "single cell along y"
         )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from viscontact.bodies.cell_borders import refined_to_borders
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.simulation.checks.periodicity import refuse_approach
@@ -13,7 +14,8 @@ from viscontact.simulation.meshing.line_grid import line_axis, line_estimate, li
 
 def grid_of_line(problem: Problem, end: float | None) -> Grid:
     """Grid of a line contact for its largest load, before and after all creep up to `end` [s]."""
-    axis = line_axis(problem.indenter)
+    indenter, planes = problem.cut_indenter, problem.planes
+    axis = line_axis(indenter)
     assert axis is not None
     surface = problem.surface
     if not surface.is_supported:
@@ -30,7 +32,8 @@ def grid_of_line(problem: Problem, end: float | None) -> Grid:
     if problem.compliance.instant > 0:
         moments[0.0] = float(problem.compliance.instant)
     found = [
-        line_estimate(problem.indenter, compliance, point, surface.response_at(time))
+        line_estimate(indenter, compliance, point, surface.response_at(time))
         for time, compliance in moments.items()
     ]
-    return line_grid(found, problem.automatic_grid or AutomaticGrid(), axis)
+    grid = line_grid(found, problem.automatic_grid or AutomaticGrid(), axis)
+    return refined_to_borders(grid, planes) if planes else grid

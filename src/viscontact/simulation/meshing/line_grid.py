@@ -8,9 +8,11 @@ from collections.abc import Callable
 import numpy as np
 
 from viscontact.backend.transforms import fast_length
+from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadPoint
+from viscontact.mechanics.halfspace.ended_half_space import planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.simulation.meshing.elastic_estimate import (
     MAX_PERIOD_CELLS,
@@ -57,9 +59,8 @@ def line_estimate(
     assert axis is not None  # of a body without end
     width = 2 * _first_half_width(indenter, axis, compliance, point)
     for _ in range(TRIES):
-        found = estimate_period(
-            indenter, compliance, point, _row(axis, MAX_PERIOD_CELLS, width), response=response
-        )
+        row = with_borders_at(_row(axis, MAX_PERIOD_CELLS, width), planes_in(response))
+        found = estimate_period(indenter, compliance, point, row, response=response)
         touched = found.in_contact.ravel()
         fills = bool(touched[0] or touched[-1])
         reach = 1.0 if fills else found.reach[1 - axis] / (width / 2)
