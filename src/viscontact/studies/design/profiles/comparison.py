@@ -105,8 +105,9 @@ def _worst(values: Sequence[Value]) -> Value:
 
 def _notes(design: ProfileDesign, found: FoundProfiles) -> Iterator[str]:
     table = design.table
-    margin = format_quantity(MARGIN * design.scenarios[0].end, "m", 2)
-    yield f"the contact is kept {margin} away from the ends, where pressure has no limit"
+    if not all(each.may_touch_ends for each in design.scenarios):
+        margin = format_quantity(MARGIN * design.scenarios[0].end, "m", 2)
+        yield f"the contact is kept {margin} away from the ends, where pressure has no limit"
     free, best = (table.sel(profile=name) for name in (FREE, design.best_named))
     gain, error = float(best[_PEAK] - free[_PEAK]), float(best[_ERROR] + free[_ERROR])
     if gain <= error:

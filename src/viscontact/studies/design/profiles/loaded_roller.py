@@ -13,11 +13,15 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Roller
 from viscontact.bodies.indenters.profile import Profile
 from viscontact.bodies.laws import Elastic
+from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered
 from viscontact.bodies.materials.material import Material
 from viscontact.case import Case
 from viscontact.studies.case_values import case_with
 from viscontact.studies.design.scenarios import Scenario
+
+#: Largest excess of a body over the end of a roller, relative to its half length.
+SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +41,14 @@ class LoadedRoller:
     def end(self) -> float:
         """Half of the total length [m]."""
         return self.roller.end
+
+    @property
+    def may_touch_ends(self) -> bool:
+        """True if pressure is limited there, as the half-space ends with the roller, or before."""
+        body, last = self.case.material, self.end * (1 + SAME)
+        if not isinstance(body, Body) or body.ends != ("free", "free"):
+            return False
+        return all(plane is not None and abs(plane) <= last for plane in body.planes)
 
     @property
     def has_given_tilt(self) -> bool:

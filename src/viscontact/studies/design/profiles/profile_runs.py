@@ -78,7 +78,12 @@ class ProfileRuns:
                     simulate,
                     **{**each.arguments(profile), **common, "fields": self._instants(each)},
                 ),
-                partial(row_peaks, self.scenarios[0].end, self.amplitude),
+                partial(
+                    row_peaks,
+                    each.end,
+                    self.amplitude,
+                    margin=0.0 if each.may_touch_ends else MARGIN,
+                ),
             )
             for number, each in enumerate(self.scenarios)
         ]
@@ -124,11 +129,16 @@ class ProfileRuns:
         return [float(scenario.case.instants[-1] if self.at == "end" else self.at)]
 
 
-def row_peaks(end: float, amplitude: float, found: xr.Dataset) -> dict[str, Any]:
-    """Largest pressures on rows inside, and at the ends less open gaps [Pa], of a roller."""
-    x, margin = np.abs(found["x"].values), (1 - MARGIN) * end
+def row_peaks(
+    end: float, amplitude: float, found: xr.Dataset, *, margin: float = MARGIN
+) -> dict[str, Any]:
+    """Largest pressures on rows inside, and at the ends less open gaps [Pa], of a roller.
+
+    `margin` is the part of its half length at the ends.
+    """
+    x, last = np.abs(found["x"].values), (1 - margin) * end
     rows, gaps = found["pressure"].values.max(axis=2), found["gap"].values.min(axis=2)
-    inside, at_end = x < margin, (x > margin) & (x < end)
+    inside, at_end = x < last, (x > last) & (x < end)
     forbidden = (rows - rows.max() / amplitude * gaps)[:, at_end]
     values = {"rows": rows[:, inside], "forbidden": forbidden}
     return {name: each.ravel().tolist() for name, each in values.items()}
