@@ -13,7 +13,7 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
-from verification.test_rolling_with_traction import (
+from verification.rolling_bodies import (
     ALUMINIUM,
     BENTALL,
     DISSIMILAR_FORCE,

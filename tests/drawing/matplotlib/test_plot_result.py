@@ -17,7 +17,7 @@ from PIL import Image
 
 import viscontact as vc
 from closeness import close_to
-from drawing.matplotlib.test_plot import OF_ADHESION, OF_FRICTION, OF_PERIODS
+from drawing.matplotlib.drawn_runs import OF_ADHESION, OF_FRICTION, OF_PERIODS
 from synthetic_results import maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.plot import COMPARISONS, FIGURES, Animation, ResultPlots, draw_indenter, save_figure
