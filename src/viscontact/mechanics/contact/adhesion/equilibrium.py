@@ -28,8 +28,9 @@ from viscontact.mechanics.contact.problem import Guess
 #: Newton steps of a search from a descent, and of the last one, after which there is no other way.
 TRIED_STEPS, LAST_STEPS = 12, 60
 
-#: Newton steps of a search that a shorter time step can follow.
-NEAR_STEPS = 8
+#: Newton steps of a search that a shorter time step can follow, and those after which it ends if it
+#: has hardly come nearer, but for the front of a law that ends abruptly, which is found late.
+NEAR_STEPS, NEAR_TRIED = 8, 4
 
 #: Fall of the changes of a descent from which on Newton's method is tried again [-].
 FALLEN = 1e-2
@@ -47,8 +48,11 @@ def solve_near(
     is_last: bool = True,
 ) -> AdhesiveSolution:
     """Newton's method alone, from a guess whose memory is used; a few steps unless `is_last`."""
-    steps = MAX_STEPS if is_last else NEAR_STEPS
-    return _solution(problem, newton_search(problem, domain, guess, tolerance, steps), 0)
+    steps, tried = (MAX_STEPS, None) if is_last else (NEAR_STEPS, NEAR_TRIED)
+    if problem.law.is_abrupt:
+        tried = None
+    found = newton_search(problem, domain, guess, tolerance, steps, tried_steps=tried)
+    return _solution(problem, found, 0)
 
 
 def solve_from(

@@ -39,6 +39,9 @@ REDUCTION_AFAR, REDUCTION, NEAR = 1e-1, 1e-3, 1e-2
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
 
+#: Part of the largest residual that it has fallen to in a search that ends soon.
+FALLEN = 0.1
+
 #: Part of the residual of two steps before, on the same cells in contact, from which on a search
 #: goes in circles [-].
 CYCLING = 0.5
@@ -62,15 +65,19 @@ def newton_search(
     start: Guess,
     tolerance: float,
     max_steps: int = MAX_STEPS,
+    *,
+    tried_steps: int | None = None,
 ) -> NewtonSearch:
     """Search from a pressure, whose memory is used, until the residual meets the tolerance.
 
-    Its displacement may be a guess, too.
+    Its displacement may be a guess, too. After the tried steps it ends where the residual has not
+    fallen to a tenth of the largest one.
     """
     iterate, convolutions = start, 0
     checked = residual_of(problem, domain, iterate)
     predicted = float(checked.attraction.traction.sum())
     is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
+    largest = 0.0
     sets = CycleOfSets()
     for step in range(max_steps + 1):
         if is_guess and (checked.error <= tolerance or step == max_steps):
@@ -78,8 +85,10 @@ def newton_search(
             checked = residual_of(problem, domain, iterate)
             is_guess, convolutions = False, convolutions + 1
         converged = checked.error <= tolerance
-        least = min(least, checked.error)
+        least, largest = min(least, checked.error), max(largest, checked.error)
         diverges = not checked.error <= DIVERGED * max(least, tolerance)
+        if tried_steps is not None and step >= tried_steps:
+            diverges |= checked.error > FALLEN * largest
         if converged or diverges or step == max_steps or sets.repeats(checked):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
