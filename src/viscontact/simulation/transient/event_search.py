@@ -36,7 +36,8 @@ from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.segments_so_far import EventError, ProgramCourse, never_happens
 from viscontact.simulation.transient.setup import RunSetup, prepare_run
 from viscontact.simulation.transient.step_solution import StepSolution
-from viscontact.simulation.transient.stepper import Stepper, StepTooLongError, TrialStep
+from viscontact.simulation.transient.stepper import Stepper
+from viscontact.simulation.transient.trial_step import StepTooLongError, TrialStep
 from viscontact.units.formatting import format_quantity
 
 #: Error of the instant of an event that its search leaves, as a part of the step.

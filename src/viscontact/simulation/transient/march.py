@@ -27,7 +27,8 @@ from viscontact.simulation.transient.grid_enlargement import (
 from viscontact.simulation.transient.observer import Observer
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
-from viscontact.simulation.transient.stepper import Stepper, StepTooLongError, TrialStep
+from viscontact.simulation.transient.stepper import Stepper
+from viscontact.simulation.transient.trial_step import StepTooLongError, TrialStep
 from viscontact.units.formatting import format_quantity
 
 _LOG = logging.getLogger("viscontact")

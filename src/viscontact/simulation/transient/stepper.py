@@ -21,7 +21,6 @@ from dataclasses import replace
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads import LoadHistory, LoadPoint
 from viscontact.mechanics.contact.clearance import just_clear
 from viscontact.mechanics.contact.domain import ContactDomain
@@ -39,7 +38,7 @@ from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.hereditary_integral import response_to
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
 from viscontact.mechanics.time_integration.restart_data import RestartData
-from viscontact.mechanics.time_integration.step_error import StepError, TimeErrors
+from viscontact.mechanics.time_integration.step_error import TimeErrors
 from viscontact.mechanics.time_integration.step_shape import MAX_TREND_GROWTH
 from viscontact.simulation import transient
 from viscontact.simulation.transient.frictionless import JointSlip, Uncoupled
@@ -47,6 +46,18 @@ from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 from viscontact.simulation.transient.surface_history import SurfaceHistory, SurfaceStep
+from viscontact.simulation.transient.trial_step import (
+    StepProblem,
+    StepTooLongError,
+    TrialStep,
+    on_full_grid,
+)
+from viscontact.simulation.transient.without_force import (
+    at_lowest_point,
+    first_touch,
+    is_separated,
+    without_pressure,
+)
 
 #: Errors are relative to the displacement that the pressure causes, but to no less than this part
 #: of the largest displacement so far, where rounding would dominate [-].
@@ -55,58 +66,6 @@ PAST_DISPLACEMENT_WEIGHT = 1e-3
 #: Part of a step over which it may hold its value after its rise where the last one rose to its
 #: end; part of the longest hold that a shorter step aims at, as its rise is somewhat shorter, too.
 LARGEST_FIRST_HOLD, HOLD_SAFETY = 0.01, 0.8
-
-#: Samples each way within a cell in the search for the body's lowest point; even, so that they
-#: include the cell's edges and corners.
-TOUCH_SAMPLES = 16
-
-
-@dataclass(frozen=True, eq=False)
-class StepProblem:
-    """The contact problem of a step, and the guess of its solution if there is one."""
-
-    point: LoadPoint
-    response: SurfaceStep
-    drive: float  # force [N] or approach [m] over which references are extrapolated
-    problem: ContactProblem
-    guess: Guess | None
-    earlier_lift: Floats | None = None  # displacement by earlier tractions [m], cells computed
-
-
-@dataclass(frozen=True, eq=False)
-class TrialStep:
-    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds."""
-
-    point: LoadPoint
-    solution: ContactSolution
-    response: SurfaceStep
-    pairs: tuple[Floats, ...]  # pressure and unit displacement of each term
-    reference: ElasticReference
-    outcome: Outcome
-    error: StepError
-    adhesive: transient.AdhesiveStep | None = None
-    joint: JointSlip | None = None  # tractions that are coupled with the pressure
-    earlier_lift: Floats | None = None  # displacement by earlier tractions [m], cells computed
-
-    @property
-    def lift(self) -> Floats | None:
-        """Displacement into the surface by tractions [m]; None where none is coupled."""
-        if self.earlier_lift is None or self.joint is None:
-            return self.earlier_lift
-        return self.earlier_lift + self.joint.lift
-
-    @property
-    def change(self) -> float:
-        """Change of the force over the largest one of a step; 0 where it is not limited [-]."""
-        return 0.0 if self.adhesive is None else self.adhesive.change
-
-
-class StepTooLongError(Exception):
-    """A step that has to be shorter before it can be solved."""
-
-    def __init__(self, change: float, *, longest: float = math.inf) -> None:
-        """Take the change of the force over the largest one of a step [-], and a duration [s]."""
-        self.change, self.longest = change, longest
 
 
 class Stepper:
@@ -160,7 +119,7 @@ class Stepper:
 
     def whole_solution(self, trial: TrialStep) -> StepSolution:
         """Return the solution of a step on the whole grid, without accepting it."""
-        return _on_full_grid(self._domain, trial, 0.0)
+        return on_full_grid(self._domain, trial, 0.0)
 
     def continue_under(self, load: LoadHistory) -> None:
         """Go on under another load, which is the same up to the last step."""
@@ -255,7 +214,7 @@ class Stepper:
             largest = max(largest, -float(trial.reference.fields[1].min()))
             self._adhesive_accept(trial.adhesive)
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
-        return _on_full_grid(self._domain, trial, time_error, loss, self._stability(step, trial))
+        return on_full_grid(self._domain, trial, time_error, loss, self._stability(step, trial))
 
     def _known_from(self, trial: TrialStep) -> ElasticReference:
         """Reference that the next guess is extrapolated from."""
@@ -326,12 +285,14 @@ class Stepper:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
-            touched = self._first_touch(step, problem, untouched=response.is_untouched)
+            touched = first_touch(problem, self._domain, self._motion)
+            if response.is_untouched:
+                touched = at_lowest_point(self._run, step.time, touched)
             return touched, Outcome.NO_CONTACT, None
         if point.force is None:
             given = problem.constraints.with_prescribed(self._motion)
-            if self._is_separated(problem, given):
-                return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
+            if is_separated(problem, self._domain, given):
+                return without_pressure(problem, self._domain, given), Outcome.NO_CONTACT, None
         tolerance = self._run.problem.tolerance
         solution, joint = self._friction.equilibrium(
             step, problem, self._domain, posed.guess, tolerance
@@ -343,7 +304,7 @@ class Stepper:
         # A body that can tilt has turned away: from its last tilts no farther than it must.
         plane, given = self._domain.whole.plane, problem.constraints.with_prescribed(self._motion)
         motion = just_clear(problem.open_gap, plane, given, solution.motion)
-        return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
+        return without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT, None
 
     def _refuse_levelling(self, step: TimeStep, response: SurfaceStep) -> None:
         """StepTooLongError for a step that holds its value long where others continue a trend."""
@@ -377,20 +338,6 @@ class Stepper:
             return math.nan
         return self._adhesive.stability(trial.adhesive)
 
-    def _is_separated(self, problem: ContactProblem, motion: Floats) -> bool:
-        plane = self._domain.whole.plane.field(motion)
-        return bool((problem.open_gap >= plane).all())
-
-    def _first_touch(
-        self, step: TimeStep, problem: ContactProblem, *, untouched: bool
-    ) -> ContactSolution:
-        """Place a body without force where it just touches the surface; free tilts are kept."""
-        tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
-        distance = problem.open_gap - self._domain.whole.plane.field(tilts)
-        motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
-        apart = _without_pressure(problem, self._domain, motion)
-        return _at_lowest_point(self._run, step.time, apart) if untouched else apart
-
 
 def _adhesive_contact(run: RunSetup, domain: ContactDomain) -> transient.AdhesiveContact | None:
     """Adhesive contacts of a run; None without adhesion."""
@@ -403,72 +350,3 @@ def _adhesive_contact(run: RunSetup, domain: ContactDomain) -> transient.Adhesiv
 def _force(point: LoadPoint) -> Floats:
     """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
     return np.array([point.force or 0.0])
-
-
-def _without_pressure(
-    problem: ContactProblem, domain: ContactDomain, motion: Floats
-) -> ContactSolution:
-    nothing = np.zeros((2, *domain.shape))
-    gap = problem.open_gap - domain.whole.plane.field(motion)
-    nowhere = np.zeros(domain.shape, bool)
-    return ContactSolution(nothing, motion, gap, nowhere, 0.0, 0, 0, converged=True)
-
-
-def _at_lowest_point(run: RunSetup, time: float, apart: ContactSolution) -> ContactSolution:
-    """Let the body's lowest point touch a flat surface, in place of the nearest cell centre."""
-    tilts = apart.motion[1:]
-    at_x, at_y = run.position_at(time)
-    slopes = np.add.outer(tilts[0] * (run.grid.x - at_x), tilts[1] * (run.grid.y - at_y))
-    cells = run.gap_at(time) - slopes
-    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
-    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
-    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
-    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
-    gap = run.indenter_at(time).gap(x, y)
-    lowest = float((gap - tilts[0] * (x - at_x) - tilts[1] * (y - at_y)).min())
-    below = apart.motion[0] - lowest
-    motion = apart.motion - np.array([below, 0.0, 0.0])
-    return replace(apart, motion=motion, gap=apart.gap + below)
-
-
-def _on_full_grid(
-    domain: ContactDomain,
-    trial: TrialStep,
-    time_error: float,
-    loss: tuple[float, float] = (math.nan, math.nan),
-    stability: float = math.nan,
-) -> StepSolution:
-    """The solution of a step, on the whole grid, with heat [J] and power [W] lost."""
-    solution, lift = trial.solution, trial.lift
-    found = solution.found
-    fields = {
-        "pressure": domain.expand_by_symmetry(found.pressure),
-        "gap": domain.expand_by_symmetry(solution.gap),
-        "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
-    }
-    reference, in_contact = trial.reference.fields, domain.expand_by_symmetry(solution.in_contact)
-    if lift is not None:
-        fields["displacement"] = fields["displacement"] + domain.expand_by_symmetry(lift)
-    for field in (*fields.values(), reference, in_contact):
-        field.flags.writeable = False  # later steps start from them
-    cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
-    energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
-    if lift is not None and trial.response.compliance > 0:
-        energy += float(np.einsum("ij,ij->", found.pressure, lift)) / 2 / trial.response.compliance
-    return StepSolution(
-        **fields,
-        in_contact=in_contact,
-        reference=reference,
-        motion=found.motion,
-        peak=float(found.pressure.max()),
-        resultants=domain.whole.passes.sums(found.pressure) * cell_area,
-        energy=energy * cell_area,
-        residual=solution.residual,
-        iterations=solution.iterations,
-        outcome=trial.outcome,
-        resolved=all(term.resolved for term in trial.response.terms),
-        stability=stability,
-        time_error=time_error,
-        heat=loss[0],
-        power=loss[1],
-    )
