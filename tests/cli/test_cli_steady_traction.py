@@ -170,7 +170,7 @@ def test_creepage_is_one_a_list_or_a_range(
         (("[1 %, 3 %, -2 %]", "[]"), "motion.creepage"),
         (("[1 %, 3 %, -2 %]", "{from: 0, to: 1 %, count: 3, spacing: log}"), "spacing: log needs"),
         (("creepage:", "rolling: false, creepage:"), "goes with a body that rolls"),
-        (("poisson_ratio: 0.5", "poisson_ratio: 0.4"), "friction.coupling: pressure and tractions"),
+        (("poisson_ratio: 0.5", "poisson_ratio: 0.4"), "creepage: pressure and tractions"),
         (("friction:", "tangential: {kind: step, force_y: 1 N}\nfriction:"), "tangential: a body"),
         (("speed: [40", "speeds: [40"), "speed"),
     ],

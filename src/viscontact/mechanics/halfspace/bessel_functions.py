@@ -118,7 +118,7 @@ def _upward(count: int, x: Floats) -> Floats:
 
 def _by_quadrature(count: int, x: Floats) -> Floats:
     """The same as transforms of Legendre's polynomials (eq. 10.1.14)."""
-    places, weights = leggauss(count + 20)
+    places, weights = leggauss(count + 20 + count % 2)  # an even number: none in the middle
     positive = places > 0
     places, weights = places[positive], weights[positive]
     polynomials = legvander(places, count - 1) * weights[:, None]

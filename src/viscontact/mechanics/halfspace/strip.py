@@ -134,7 +134,8 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
 
     >>> table = strip_table(0.3, odd=False)
     >>> at_one = np.tensordot(table.weights(np.array([1.0]))[0], table.entries, axes=1)
-    >>> under = scipy.interpolate.CubicSpline(table.panels.logarithms, at_one)
+    >>> from scipy.interpolate import CubicSpline
+    >>> under = CubicSpline(table.panels.logarithms, at_one)
     >>> near = np.searchsorted(table.panels.places, 1e-6)
     >>> print(f"{under(np.log(0.5))[near]:.4f}")
     0.0965
