@@ -63,7 +63,8 @@ march(64)
 before = resident("VmRSS")
 march({cells})
 run = prepare_run(problem({cells}))
-announced, freed = run_memory(run), freed_memory(run.grid, run.mirrored)
+grips = run.problem.friction is not None
+announced, freed = run_memory(run), freed_memory(run.grid, run.mirrored, under_friction=grips)
 print(resident("VmHWM") - before, announced - PROGRAM, freed)
 """
 

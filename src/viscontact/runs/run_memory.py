@@ -26,6 +26,9 @@ WHOLE_ARRAYS, COMPUTED_ARRAYS = 11.1, 6.4
 #: The same run keeps all of them or none, depending on what was allocated before it.
 FREED_WHOLE_ARRAYS, FREED_COMPUTED_ARRAYS, MOST_FREED = 2.0, 4.0, 2.2e7
 
+#: Further ones of the whole grid under friction, measured.
+FREED_ARRAYS_OF_FRICTION = 5.0
+
 #: Further arrays under a moving body, and of a sum over all steps.
 ARRAYS_OF_MOTION, ARRAYS_OF_SUM = 6.0, 2.0
 
@@ -92,10 +95,18 @@ def run_memory(run: RunSetup) -> float:
         whole += share * ARRAYS_OF_LAYERS * len(run.problem.shear.layers)
         if run.problem.is_coupled:
             whole += ARRAYS_OF_COUPLING + share * COMPUTED_ARRAYS_OF_COUPLING + kept_there
-    return needed_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + kept
+    freed = freed_memory(run.grid, run.mirrored, under_friction=run.problem.friction is not None)
+    return array_memory(run.grid, fields, run.mirrored, further=further, whole=whole) + freed + kept
 
 
 def needed_memory(
+    grid: Grid, fields_kept: int, mirrored: tuple[bool, bool] = (False, False)
+) -> float:
+    """Memory of a run without the scalars of its steps [bytes]; allocates no arrays."""
+    return array_memory(grid, fields_kept, mirrored) + freed_memory(grid, mirrored)
+
+
+def array_memory(
     grid: Grid,
     fields_kept: int,
     mirrored: tuple[bool, bool] = (False, False),
@@ -103,7 +114,7 @@ def needed_memory(
     further: float = 0.0,
     whole: float = 0.0,
 ) -> float:
-    """Memory of a run without the scalars of its steps [bytes]; allocates no arrays.
+    """Memory of the program and the arrays of a run at a time [bytes]; allocates none.
 
     `fields_kept` counts the stored fields of pressure, and as many of displacement: one for each
     exponential term of the contact compliance, or one for each step; `further` other arrays of
@@ -116,12 +127,15 @@ def needed_memory(
         arrays = WHOLE_ARRAYS + share * (COMPUTED_ARRAYS + arrays)
     else:
         arrays += WORK_ARRAYS
-    return PROGRAM + _array_memory(grid) * (arrays + whole) + freed_memory(grid, mirrored)
+    return PROGRAM + _array_memory(grid) * (arrays + whole)
 
 
-def freed_memory(grid: Grid, mirrored: tuple[bool, bool] = (False, False)) -> float:
+def freed_memory(
+    grid: Grid, mirrored: tuple[bool, bool] = (False, False), *, under_friction: bool = False
+) -> float:
     """Memory of freed arrays that the process of a run may keep [bytes]."""
     arrays = FREED_WHOLE_ARRAYS + 0.5 ** sum(mirrored) * FREED_COMPUTED_ARRAYS
+    arrays += FREED_ARRAYS_OF_FRICTION * under_friction
     return arrays * min(_array_memory(grid), MOST_FREED)
 
 
