@@ -15,6 +15,9 @@ import pytest
 import web.served_page as seen
 from viscontact.web.access import TOKEN_NAME
 from web.calculator_page import CASE
+from web.pressed_ball import browser
+
+__all__ = ["browser"]  # fixture
 
 pytest.importorskip("playwright")
 pytestmark = [
@@ -27,12 +30,6 @@ pytestmark = [
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[seen.Server]:
     with seen.served(tmp_path_factory.mktemp("served") / "page") as server:
         yield server
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with seen.opened_browser() as browser:
-        yield browser
 
 
 @pytest.fixture

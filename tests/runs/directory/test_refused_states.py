@@ -96,21 +96,20 @@ def test_changed_run_is_refused_with_the_difference(recorded: Recorded) -> None:
     assert contents(recorded.directory) == before
 
 
-def test_state_of_another_version_is_refused(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("saved", "message"),
+    [
+        (("0.0.1", LAYOUT), r"was saved by viscontact 0\.0\.1"),
+        ((vc.__version__, LAYOUT - 1), r"earlier state of viscontact; .* --overwrite$"),
+    ],
+    ids=["version", "layout"],
+)
+def test_state_of_another_version_or_layout_is_refused(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch, saved: tuple[str, int], message: str
 ) -> None:
-    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1", LAYOUT))
+    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", saved)
     stop_after(Recorder(recorded), 2)
-    with pytest.raises(ValueError, match=r"was saved by viscontact 0\.0\.1"):
-        Recorder.resume(recorded)
-
-
-def test_state_of_another_layout_is_refused(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", (vc.__version__, LAYOUT - 1))
-    stop_after(Recorder(recorded), 2)
-    with pytest.raises(ValueError, match=r"earlier state of viscontact; .* --overwrite$"):
+    with pytest.raises(ValueError, match=message):
         Recorder.resume(recorded)
 
 

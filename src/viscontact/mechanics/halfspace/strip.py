@@ -12,11 +12,10 @@ In units of 1/k, at the distance X from the face, with r² = 1 + ζ² and w = k 
 
     T = 2 s(X, Z) + (2/π) ∫ [(r² - 2ν) sin(ζZ)/ζ + r² Z cos(ζZ)] Q(r) dζ/r - (1 - 2ν) Q(1),
 
-where sin(ζZ)/ζ is taken as the integral of cos(ζZ) from 0 to Z,
-
-s is the stress by the load and its image about one face (see `free_end`), and Q the sum of
-exp(-r D) over all further images, of distances D. F and C are transforms of those of a slab
-(S. P. Timoshenko & J. N. Goodier, Theory of Elasticity, 1970, art. 24, with waves along y):
+where s is the stress by the load and its image about one face (see `free_end`), and Q the sum of
+exp(-r D) over all further images, of distances D; sin(ζZ)/ζ is taken as the integral of cos(ζZ)
+from 0 to Z. F and C are transforms of those of a slab (S. P. Timoshenko & J. N. Goodier, Theory of
+Elasticity, 1970, art. 24, with waves along y):
 
     F = (2/π) ∫ [(ζ/r)² (2H - S) + (2ν/r²) H] cos(ζZ) dζ,   C = (2/π) ∫ (2/r) L cos(ζZ) cos(ζZ') dζ,
 
