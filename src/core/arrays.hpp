@@ -78,3 +78,4 @@ void define(nb::module_ &module, const char *name, Work work) {
 void define_search(nb::module_ &module);
 void define_history(nb::module_ &module);
 void define_rim(nb::module_ &module);
+void define_filters(nb::module_ &module);

@@ -174,3 +174,39 @@ def spans(cells: Bools, /) -> tuple[int, int, int, int]: ...
 # Transforms: see `viscontact.backend.transforms`.
 def filter(spectrum: Numbers, symbol: Numbers, axis: int, /) -> None: ...
 def largest(array: Numbers) -> float: ...
+
+class SingleFilter:
+    """Filter of fields by their spectra in single precision."""
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        lengths: tuple[int, int],
+        even: tuple[bool, bool],
+        symbol: Floats,
+        threads: int,
+        /,
+    ) -> None: ...
+    @property
+    def work(self) -> int: ...
+    def read_symbol(self, into: Floats, /) -> None: ...
+    def apply(
+        self, field: Singles | Floats, size: float, into: Singles | Floats, work: Singles, /
+    ) -> None: ...
+
+class DoubleFilter:
+    """Filter of fields by their spectra in double precision."""
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        lengths: tuple[int, int],
+        even: tuple[bool, bool],
+        symbol: Floats,
+        threads: int,
+        /,
+    ) -> None: ...
+    @property
+    def work(self) -> int: ...
+    def read_symbol(self, into: Floats, /) -> None: ...
+    def apply(self, field: Floats, size: float, into: Floats, work: Floats, /) -> None: ...

@@ -2,7 +2,8 @@
 
 SciPy is always there; `ducc0` takes less than half the time where it is installed
 (``pip install viscontact[fast]``; it is under the GPL, and so never required). The two agree to
-rounding, not to the bit, so a run keeps the library that it began with.
+rounding, not to the bit, so a run keeps the library that it began with. What the compiled core
+filters (`compiled_filter`) needs neither.
 """
 
 from __future__ import annotations

@@ -312,6 +312,7 @@ class ContactDomain:
         options: Any = {"transforms": self._transforms, "workspace": self._workspace}
         if all(self.grid.periodic):
             cell_size = self.grid.cell_size
+            options["team"] = self.team
             return PeriodicConvolution(shape, cell_size, response, single=single, **options)
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
         if not coefficients.size:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from functools import partial
+from functools import cached_property, partial
 from typing import NamedTuple, Self, TypeAlias
 
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Numbers
+from viscontact.backend.compiled_filter import compiled_filter
 from viscontact.backend.team import Team, Workspace, blocks_of, order_of
 from viscontact.backend.transforms import (
     Field,
@@ -76,28 +77,20 @@ class Convolution:
         self._second = second = 1 - first
         self._even, self._signed = mirrored, signed
         self._number = np.dtype(np.float32 if single else np.float64)
-        complex_number = np.result_type(self._number, np.complex64)
+        self._complex = np.result_type(self._number, np.complex64)
+        self._team, self._workspace = team or Team(transforms.threads), workspace
         symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, transforms, signed)
-        self._symbol = symbol.astype(self._number if signed is None else complex_number)
-        kind = self._number if mirrored[first] else complex_number
+        self._set_symbol(symbol)
+        kind = self._number if mirrored[first] else self._complex
         waves = symbol.shape[first]
         self._lines = blocks_of(self.shape[second], self._lengths[first] * self._number.itemsize)
         self._waves = blocks_of(waves, self._lengths[second] * kind.itemsize)
-        #: Padded lines for each thread, along the first and along the second axis.
-        self._padded = [
-            (
-                np.zeros(_shape(first, self._lengths[first], self._lines[0].stop), self._number),
-                np.zeros(_shape(second, self._lengths[second], self._waves[0].stop), kind),
-            )
-            for _ in range(transforms.threads)
-        ]
+        self._kinds, self._threads = (self._number, kind), transforms.threads
         #: Parts of these, by thread, axis and number of lines.
         self._kept: dict[tuple[int, int, int], _PaddedLines] = {}
         is_one_block = len(self._lines) == len(self._waves) == 1
         # Threads share the blocks out, or else the lines of the only one.
         self._transforms = transforms if is_one_block else transforms_by(transforms.name)
-        self._team = team or Team(transforms.threads)
-        self._workspace = workspace
         #: Shape and kind of the spectrum along the first axis of cells with data.
         self._half = _shape(first, waves, self.shape[second]), np.dtype(kind)
 
@@ -105,12 +98,29 @@ class Convolution:
         """Weighted sum of operators on the same block, in the precision of this one."""
         total = copy(self)
         pairs = zip(weights, parts, strict=True)
-        symbol = np.asarray(sum(weight * part._symbol for weight, part in pairs))
-        total._symbol = symbol.astype(self._symbol.dtype)
+        total._set_symbol(np.asarray(sum(weight * part._known_symbol for weight, part in pairs)))
         return total
+
+    def _set_symbol(self, symbol: Numbers) -> None:
+        """Multiply spectra by a symbol from now on: in the compiled core, where that can do it."""
+        lengths = self._lengths[0], self._lengths[1]
+        is_single = self._number == np.float32
+        self._compiled = compiled_filter(
+            *(self._team, self.shape, lengths, self._even, symbol), single=is_single
+        )
+        if self._compiled is None:
+            kind = self._number if self._signed is None else self._complex
+            self._symbol = symbol.astype(kind)
+
+    @property
+    def _known_symbol(self) -> Numbers:
+        """The symbol, which the core has in an order of its own."""
+        return self._symbol if self._compiled is None else self._compiled.symbol
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
+        if self._compiled is not None:
+            return self._compiled.apply(pressure, into, self._workspace)
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
@@ -120,6 +130,19 @@ class Convolution:
         self._for_each_block(self._waves, partial(self._multiply, half))
         self._for_each_block(self._lines, partial(self._transform_back, result, size, half))
         return result
+
+    @cached_property
+    def _padded(self) -> list[tuple[Numbers, Numbers]]:
+        """Padded lines for each thread, along the first and along the second axis."""
+        first, second = self._first, self._second
+        real, kind = self._kinds
+        return [
+            (
+                np.zeros(_shape(first, self._lengths[first], self._lines[0].stop), real),
+                np.zeros(_shape(second, self._lengths[second], self._waves[0].stop), kind),
+            )
+            for _ in range(self._threads)
+        ]
 
     def _half_spectrum(self) -> Numbers:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""

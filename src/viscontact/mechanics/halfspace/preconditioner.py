@@ -9,11 +9,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats, Integers
+from viscontact.backend.arrays import Floats, Integers, Numbers
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Field, Transforms
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
-from viscontact.mechanics.halfspace.spectral import Spectra
+from viscontact.mechanics.halfspace.spectral import Spectra, SpectrumFilter
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 
 #: Wave numbers per decade between which the response of layers is interpolated.
@@ -37,8 +37,10 @@ class Preconditioner:
         team: Team | None = None,
     ) -> None:
         self._spectra = Spectra(shape, cell_size, mirrored, np.float32, transforms, workspace, team)
-        self._least = self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
-        if response is not HALF_SPACE:
+        if response is HALF_SPACE:
+            half = self._spectra.half_wave_numbers
+            self._least = self._filter = self._filter_by(half.astype(np.float32))
+        else:
             self._set_ratios(response.ratio(self.waves))
 
     def with_ratios(self, ratios: Floats) -> Self:
@@ -46,6 +48,9 @@ class Preconditioner:
         other = copy(self)
         other._set_ratios(ratios)
         return other
+
+    def _filter_by(self, symbol: Numbers) -> SpectrumFilter:
+        return SpectrumFilter(self._spectra, symbol)
 
     @property
     def waves(self) -> Floats:
@@ -67,11 +72,11 @@ class Preconditioner:
         # Of a sum of several terms, rounding may be negative where nothing is left.
         known = np.log(np.maximum(np.abs(ratios), np.finfo(float).tiny))
         half = self._spectra.half_wave_numbers
-        self._least = (half / np.exp(known.max())).astype(np.float32)
+        self._least = self._filter_by((half / np.exp(known.max())).astype(np.float32))
         symbol = half / np.exp(self._interpolated(known))
         # The mean of a block is a wave of about the longest length in it, not of none.
         symbol[0, 0] = min([*symbol[0, 1:2], *symbol[1:2, 0]])
-        self._symbol = symbol.astype(np.float32)
+        self._filter = self._filter_by(symbol.astype(np.float32))
 
     def _interpolated(self, known: Floats) -> Floats:
         """Values at all wave numbers, linear in the logarithm, from those at `waves`."""
@@ -80,12 +85,12 @@ class Preconditioner:
 
     def apply(self, displacement: Field, into: Field | None = None) -> Field:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
-        return self._spectra.filtered(displacement, self._symbol, into)
+        return self._filter.apply(displacement, into)
 
     def stiffness_of(self, cells: Field, into: Field | None = None) -> Field:
         """Stiffness where some cells are displaced by 1, others by 0 [1/m]."""
         # That of the stiffest half-space that is nowhere stiffer than the surface.
-        return self._spectra.filtered(cells, self._least, into)
+        return self._least.apply(cells, into)
 
 
 class MovingPreconditioner(Preconditioner):
@@ -115,7 +120,7 @@ class MovingPreconditioner(Preconditioner):
         symbol = self._spectra.half_wave_numbers * inverse
         if any(response is not HALF_SPACE for response, _ in terms):  # as of layers at rest
             symbol[0, 0] = min(abs(each) for each in (*symbol[0, 1:2], *symbol[1:2, 0]))
-        self._symbol = symbol.astype(np.complex64)
+        self._filter = self._filter_by(symbol.astype(np.complex64))
 
     def _ratios_of(self, response: SurfaceResponse) -> Floats:
         """L at all wave numbers; that of a term may be negative [-]."""

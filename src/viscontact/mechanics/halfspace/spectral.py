@@ -19,6 +19,7 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 
 from viscontact.backend.arrays import Complexes, Floats, Numbers
+from viscontact.backend.compiled_filter import CompiledFilter, compiled_filter
 from viscontact.backend.team import Team, Workspace, blocks_of, order_of
 from viscontact.backend.transforms import (
     Field,
@@ -52,10 +53,12 @@ class PeriodicConvolution:
         single: bool = False,
         transforms: Transforms | None = None,
         workspace: Workspace | None = None,
+        team: Team | None = None,
     ) -> None:
         self.shape = shape
         number = np.float32 if single else np.float64
-        self._spectra = Spectra(shape, cell_size, (False, False), number, transforms, workspace)
+        given = transforms, workspace, team
+        self._spectra = Spectra(shape, cell_size, (False, False), number, *given)
         half = self._spectra.half_wave_numbers
         half[0, 0] = np.inf  # q = 0 comes below
         symbol = 1 / half
@@ -65,22 +68,22 @@ class PeriodicConvolution:
         mean = response.mean_displacement
         self._has_datum = bool(np.isfinite(mean))
         symbol[0, 0] = mean if self._has_datum else 0.0
-        self._symbol: Numbers = symbol.astype(number)
+        self._filter = SpectrumFilter(self._spectra, symbol.astype(number))
 
     def sum_of(self, parts: Sequence[Self], weights: Sequence[float]) -> Self:
         """Weighted sum of operators on the same block, in the precision of this one."""
         total = copy(self)
         pairs = zip(weights, parts, strict=True)
-        symbol = np.asarray(sum(weight * part._symbol for weight, part in pairs))
+        symbol = np.asarray(sum(weight * part._filter.symbol for weight, part in pairs))
         total._has_datum = all(part._has_datum for part in parts)
         if not total._has_datum:
             symbol[0, 0] = 0.0
-        total._symbol = symbol.astype(self._symbol.dtype)
+        total._filter = SpectrumFilter(self._spectra, symbol.astype(self._filter.symbol.dtype))
         return total
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
-        return self._spectra.filtered(pressure, self._symbol, into)
+        return self._filter.apply(pressure, into)
 
 
 def _ratios(response: SurfaceResponse, half: Floats) -> Floats:
@@ -112,13 +115,31 @@ class MovingPeriodicConvolution(PeriodicConvolution):
             along = self._spectra.factor_along(axis, factor)
             total = total + (along if response is HALF_SPACE else _ratios(response, half) * along)
             mean += response.mean_displacement * float(along.flat[0].real)
-        symbol = np.asarray(self._symbol * total)
+        symbol = np.asarray(self._filter.symbol * total)
         self._has_datum = bool(np.isfinite(mean))
         symbol[0, 0] = mean if self._has_datum else 0.0
-        self._symbol = symbol.astype(np.complex64 if single else np.complex128)
+        kind = np.complex64 if single else np.complex128
+        self._filter = SpectrumFilter(self._spectra, symbol.astype(kind))
 
 
 _multiply_rows = partial(multiply_by_even, axis=1)
+
+
+class SpectrumFilter:
+    """Product of the spectra of fields and one symbol, in the compiled core where it can do that.
+
+    A real symbol is even along both axes, as every function of |q| is.
+    """
+
+    def __init__(self, spectra: Spectra, symbol: Numbers) -> None:
+        self.symbol = symbol
+        self._spectra, self._compiled = spectra, spectra.compiled(symbol)
+
+    def apply(self, field: Field, into: Field | None = None) -> Field:
+        """Return the filtered field, in an array if one is given."""
+        if self._compiled is None:
+            return self._spectra.filtered(field, self.symbol, into)
+        return self._compiled.apply(field, into, self._spectra.workspace)
 
 
 class Spectra:
@@ -154,6 +175,16 @@ class Spectra:
         x, y = self.wave_numbers
         return np.asarray(np.hypot(x[:, None], y[None, :]) / 2)
 
+    def compiled(self, symbol: Numbers) -> CompiledFilter | None:
+        """Filter of the compiled core by a symbol, where it can do that."""
+        axes = [self._shape[axis] for axis in (0, 1)]
+        halves = [
+            slice(None) if axis in self._even else slice(axes[axis] // 2 + 1) for axis in (0, 1)
+        ]
+        even = 0 in self._even, 1 in self._even
+        given = self._team, self._shape, self._shape, even, symbol[halves[0], halves[1]]
+        return compiled_filter(*given, single=self._number == np.float32)
+
     def filtered(
         self,
         field: Field,
@@ -171,6 +202,11 @@ class Spectra:
         found = np.empty(self._shape) if into is None else into
         team.each_rows(partial(restore_of_order, size), rows, back, found)
         return found
+
+    @property
+    def workspace(self) -> Workspace:
+        """Memory that filters work in."""
+        return self._workspace
 
     def factor_along(self, axis: int, factor: WaveFactor) -> Complexes:
         """Factor of each entry of a spectrum by its wave number along an axis [1/m]."""
