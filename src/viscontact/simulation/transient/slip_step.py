@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
+from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.errors import ConvergenceError, SlidingError
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.tangential import TangentialPoint
+from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.entry import OfLayers, entry_compliance
 from viscontact.mechanics.contact.friction.equilibrium import IMBALANCE, solve_slip
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
@@ -16,11 +17,13 @@ from viscontact.mechanics.contact.friction.region import Region, ShearDomain, Sh
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.shear_history import ShearStep
-from viscontact.simulation.transient.slip_state import SlipState
+from viscontact.simulation.transient.slip_state import SlipState, StepSlip
 from viscontact.units.formatting import format_quantity
 
 #: Waves that tell how layers answer to a growth of the contact are as long as that.
 WAVE = 2 * np.pi
+
+TINY = float(np.finfo(np.float64).tiny)
 
 #: Least displacement that errors are relative to, over friction times that under pressure [-].
 LEAST_SHIFT = 0.01
@@ -103,6 +106,27 @@ def solved_on(
     return found
 
 
+def rescaled(
+    slip: StepSlip,
+    last: NormalContact,
+    contact: NormalContact,
+    coefficient: float,
+    fresh: Bools,
+) -> SlipGuess:
+    """Tractions of the last pressure on the circles of the next one, in cells that slip."""
+    # Those of cells that enter in the step are in proportion to the pressure as well.
+    slips = ((slip.state == 2) | fresh) & last.in_contact
+    ratio = np.divide(contact.pressure, last.pressure, out=np.ones(slips.shape), where=slips)
+    traction = slip.traction * ratio
+    # A cell that has come into contact since then is at the rim, where it slips.
+    enters = contact.in_contact & ~last.in_contact
+    if enters.any() and slip.way is not None:
+        way = slip.way[:, enters]
+        against = way / np.maximum(lengths(way), TINY)
+        traction[:, enters] = -coefficient * contact.pressure[enters] * against
+    return SlipGuess(traction, slip.motion)
+
+
 def refuse_force_apart(step: SlipStep) -> None:
     """Refuse a force on bodies that do not touch."""
     if np.abs(step.constraints.resultants).any():
@@ -123,6 +147,7 @@ def _slip_problem(
         *(contact, before, run.grid.cell_size, step.response.kappa),
         plane=rolls or not run.grid.has_datum,
         layers=_of_layers(run, domain, step.response),
+        cut=region.cut,
     )
     gripping = contact.gripping[region.cut]
     return SlipProblem(
@@ -130,7 +155,7 @@ def _slip_problem(
         step.coefficient * contact.pressure[region.cut] * gripping,
         step.past,
         step.response.compliance,
-        entry[:, *region.cut] * gripping,
+        entry * gripping,
         step.constraints,
         LEAST_SHIFT * step.coefficient * contact.displacement,
     )

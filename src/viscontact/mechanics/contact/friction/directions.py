@@ -6,7 +6,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.contact.friction.discs import on_circle
+from viscontact.mechanics.contact.friction.discs import divided, on_circle
 from viscontact.mechanics.contact.friction.problem import SlipProblem
 
 
@@ -22,8 +22,8 @@ class Directions:
 
     def projected(self, fields: Floats) -> Floats:
         """Components along free directions."""
-        along = (self.normal * fields).sum(axis=0)
-        found = fields - self.normal * along
+        x, y = self.normal
+        found = fields - self.normal * (x * fields[0] + y * fields[1])
         found *= self.sticks | self.slips
         return np.asarray(found)
 
@@ -45,7 +45,8 @@ class ReachedCircles:
 
     def directions(self, slip: Floats) -> Directions:
         """Free directions under a slip: cells on the circle that slip against it are held there."""
-        pull = -(self.normal * slip).sum(axis=0)
+        x, y = self.normal
+        pull = -(x * slip[0] + y * slip[1])
         slips = self.reached & (pull >= 0)
         return Directions(slips, self.normal * slips, self.held & ~slips, pull * slips)
 
@@ -53,5 +54,5 @@ class ReachedCircles:
 def reached_circles(problem: SlipProblem, traction: Floats) -> ReachedCircles:
     """Circles that a traction has reached."""
     reached = on_circle(traction, problem.bound, problem.in_contact)
-    normal = np.divide(traction, problem.bound, out=np.zeros(traction.shape), where=reached)
+    normal = divided(traction, problem.bound, reached)
     return ReachedCircles(problem.in_contact, reached, normal)

@@ -30,6 +30,12 @@ def lengths(pairs: Floats) -> Floats:
     return np.asarray(np.sqrt(x * x + y * y))
 
 
+def divided(fields: Floats, by: Floats, cells: Bools) -> Floats:
+    """Quotients in some cells, 0 in the others."""
+    # A division of these cells only takes four times as long.
+    return np.asarray(fields / np.where(cells, by, 1.0) * cells)
+
+
 def on_circle(traction: Floats, bound: Floats, in_contact: Bools) -> Bools:
     """Cells in contact whose traction has reached what friction carries."""
     return np.asarray(in_contact & (lengths(traction) >= bound * (1 - ON_CIRCLE)))
@@ -105,13 +111,13 @@ class CutOff:
     def __init__(self, beyond: Floats, bound: Floats, held: Bools) -> None:
         self._beyond, self._size = beyond, lengths(beyond)
         self._outside = (self._size > bound) | (held & (self._size > 0))
-        self._share = np.divide(bound, self._size, out=np.ones(bound.shape), where=self._outside)
+        share = bound / np.where(self._outside, self._size, 1.0)
+        self._share = np.where(self._outside, share, 1.0)
         self.traction: Floats = beyond * self._share
 
     def slopes(self, weight: Floats) -> tuple[Floats, Floats, Floats]:
         """Change with a rigid motion by a weight: entries xx, xy and yy for each cell."""
         # Beyond the circle only the tangent is left, shortened.
-        none = np.zeros(self._beyond.shape)
-        x, y = np.divide(self._beyond, self._size, out=none, where=self._outside)
+        x, y = divided(self._beyond, self._size, self._outside)
         left = weight * self._share
         return left * (1 - x * x), -left * x * y, left * (1 - y * y)

@@ -46,13 +46,15 @@ def entry_compliance(
     *,
     plane: bool = False,
     layers: OfLayers | None = None,
+    cut: tuple[slice, slice] = (slice(None), slice(None)),
 ) -> Floats:
     """Entries xx, xy and yy of C gap/p in cells that enter [m/Pa], shape (3, nx, ny).
 
     The contacts are those at the end of the step and at its begin; `plane` tells a line contact.
+    The entries are those of a part of the grid.
     """
     gap, enters = before.gap, contact.entered_since(before)
-    found = np.zeros((3, *gap.shape))
+    found = np.zeros((3, *gap[cut].shape))
     if not enters.any():
         return found
     compliance = np.maximum(gap[enters] / contact.pressure[enters], 0.0)
@@ -67,9 +69,17 @@ def entry_compliance(
         along, across = _ratios(radii, kappa)
     x, y = _edge_normal(gap, enters, cell_size)
     xx, yy = along * x * x + across * y * y, along * y * y + across * x * x
-    i, j = np.nonzero(enters)
-    found[:, i, j] = np.stack([xx, (along - across) * x * y, yy]) * compliance
+    found[:, enters[cut]] = (np.stack([xx, (along - across) * x * y, yy]) * compliance)[
+        :, _within(enters, cut)
+    ]
     return found
+
+
+def _within(cells: Bools, cut: tuple[slice, slice]) -> Bools:
+    """For each of some cells whether it is in a part of the grid."""
+    inside = np.zeros(cells.shape, bool)
+    inside[cut] = True
+    return inside[cells]
 
 
 def _size(contact: NormalContact, cell_size: tuple[float, float], *, plane: bool) -> float:

@@ -1,5 +1,6 @@
 """Frictional equilibrium of one time step, by Newton's method on the discs |q| <= μ p.
 
+0. Tractions under a changed force are predicted (`predicted`).
 1. The rigid motion by least squares, the slip w under it, and the residual of the friction law.
 2. Free directions: both in cells that stick, the tangent in those that slip. A cell on its circle
    whose slip has the direction of its traction is released.
@@ -17,6 +18,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.friction.discs import balanced, lengths, on_circle
 from viscontact.mechanics.contact.friction.newton_step import newton_step
+from viscontact.mechanics.contact.friction.predicted import predicted
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
 from viscontact.mechanics.contact.friction.residual import (
     SlipResidual,
@@ -38,9 +40,9 @@ FALLBACKS = (1.0, 0.3)
 #: for a rise, good steps were shortened, and some searches went around in circles.
 ROUNDING = 1e-7
 
-#: Residual from which on the next Newton step may meet the tolerance, and is judged in double
-#: precision at once; and tolerance that single precision is too coarse for.
-CLOSE, FINE = 3e-4, 1e-5
+#: Tolerance that single precision is too coarse for; its error of a displacement over the largest,
+#: and the part of the tolerance that errors of a solution by it are up to.
+FINE, SINGLE, NEGLIGIBLE = 1e-5, 5e-7, 0.1
 
 #: Part of the cells that may stick where sliding is tried, and part of the residual that it leaves
 #: at most.
@@ -70,11 +72,10 @@ def solve_slip(
     ``converged`` is False if the residual or the balances are not met, as where the prescribed
     forces exceed what friction carries.
     """
-    shift = block.shift
-    slips = on_circle(start, problem.bound, problem.in_contact)
-    traction = balanced(start, problem.bound, shift, problem.constraints, slips)
+    shift, traction = block.shift, _first(problem, block, start, motion)
     found = _judged(problem, block, traction, motion, single=tolerance > FINE)
     iterations, convolutions, failures, tries = 0, 1, 0, MOST_TRIES
+    rounding = 0.0  # of the displacement, over the largest
     for _ in range(MAX_STEPS):
         if found.error <= tolerance:
             break
@@ -85,14 +86,16 @@ def solve_slip(
             trial = traction + part * step.traction
             trial = balanced(trial, problem.bound, shift, problem.constraints, step.slips)
             moved = found.motion + part * step.motion
-            judged = _judged_near(problem, block, (traction, found), trial, moved, tolerance)
+            judged = _judged_near(problem, block, (traction, found), trial, moved)
             convolutions += 1
             if _is_better(judged, found):
                 break
         else:
             failures += 1
-        if judged.error <= tolerance <= FINE and found.error > CLOSE:
-            judged = _judged(problem, block, trial, judged.motion)
+        # The change of the displacement is about as large as the residual was.
+        rounding += SINGLE * found.error
+        if judged.error <= tolerance <= FINE and rounding > NEGLIGIBLE * tolerance:
+            judged, rounding = _judged(problem, block, trial, judged.motion), 0.0
             convolutions += 1
         stalls = judged.error > max(LESS * found.error, tolerance)
         if tries > 0 and stalls and _nearly_slides(judged):
@@ -104,6 +107,14 @@ def solve_slip(
                 tries -= 1
         traction, found = trial, judged
     return _solution(problem, block, traction, found, (iterations, convolutions), tolerance)
+
+
+def _first(problem: SlipProblem, block: ShearBlock, start: Floats, motion: Floats | None) -> Floats:
+    """Traction on the discs with the prescribed resultants; without a motion it is predicted."""
+    if motion is None:
+        start = predicted(start, problem.bound, block.shift, problem.constraints)
+    slips = on_circle(start, problem.bound, problem.in_contact)
+    return balanced(start, problem.bound, block.shift, problem.constraints, slips)
 
 
 def _nearly_slides(found: SlipResidual) -> bool:
@@ -152,12 +163,9 @@ def _judged_near(
     known: tuple[Floats, SlipResidual],
     traction: Floats,
     motion: Floats,
-    tolerance: float,
 ) -> SlipResidual:
-    """Residual of a traction near a known one: of the change, in single precision, while far."""
+    """Residual of a traction near a known one: the change by it is found in single precision."""
     before, found = known
-    if found.error <= CLOSE and tolerance <= FINE:
-        return _judged(problem, block, traction, motion)
     moved = found.unit_displacement + block.search.apply(traction - before)
     return slip_residual(problem, block.shift, traction, moved, motion)
 

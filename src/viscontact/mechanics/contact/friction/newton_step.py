@@ -10,6 +10,7 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Singles
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions
+from viscontact.mechanics.contact.friction.discs import divided
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
@@ -64,11 +65,8 @@ class NewtonSystem:
     @cached_property
     def curvature(self) -> Singles:
         """λ/(μ p) of cells that slip [-]."""
-        bound, directions = self.problem.bound, self.directions
-        ratio = np.divide(
-            directions.pull, bound * self.unit, out=np.zeros(bound.shape), where=directions.slips
-        )
-        return ratio.astype(np.float32)
+        bound, directions = self.problem.bound * self.unit, self.directions
+        return divided(directions.pull, bound, directions.slips).astype(np.float32)
 
     @cached_property
     def _diagonal(self) -> Singles:

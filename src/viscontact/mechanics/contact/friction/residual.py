@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions, reached_circles
@@ -61,7 +63,7 @@ def slip_residual(
         slip,
         along,
         directions,
-        error=float(lengths(along).max()) / scale,
+        error=_largest(along) / scale,
         objective=work / 2 - given,
         displacement=scale,
     )
@@ -84,9 +86,13 @@ def _largest_shift(motion: Floats, rigid: Floats, cells: Bools) -> float:
     return float(lengths(motion[:2]))
 
 
-def _largest(pairs: Floats, cells: Bools) -> float:
+def _largest(pairs: Floats, cells: Bools | bool = True) -> float:
     """Largest length of pairs in some cells."""
-    return float(lengths(pairs).max(initial=0.0, where=cells))
+    x, y = pairs
+    squares = x * x + y * y
+    if cells is not True:
+        squares *= cells
+    return math.sqrt(float(squares.max()))
 
 
 def _product(one: Floats, other: Floats) -> float:
