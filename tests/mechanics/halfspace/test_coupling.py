@@ -5,7 +5,7 @@ import pytest
 
 from closeness import close_to
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.halfspace.coupling_filter import coupling_filter
+from viscontact.mechanics.halfspace.coupling_filter import CouplingSum, coupling_filter
 from viscontact.mechanics.halfspace.coupling_influence import coupling_coefficient, coupling_tables
 
 GRIDS = [
@@ -78,3 +78,28 @@ def test_a_wave_of_pressure_moves_the_surface_by_its_slope():
 def _tables(grid):
     tables = coupling_tables(grid)
     return tables.along_x, tables.along_y
+
+
+@pytest.mark.parametrize("mirrored", [(False, False), (True, False), (False, True), (True, True)])
+def test_maps_in_single_precision_are_those_in_double(mirrored):
+    random, exact = np.random.default_rng(4), coupling_filter(GRIDS[0], mirrored=mirrored)
+    shape = [n // (1 + even) for n, even in zip(GRIDS[0].shape, mirrored, strict=True)]
+    traction, pressure = random.standard_normal((2, *shape)), random.standard_normal(shape)
+    single = exact.in_single()
+    for found, expected in (
+        (single.normal(traction), exact.normal(traction)),
+        (single.along(pressure), exact.along(pressure)),
+    ):
+        assert found.dtype == np.float32
+        np.testing.assert_allclose(found, expected, atol=1e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("size", [1e-60, 1e12])
+def test_changes_are_of_any_unit(size):
+    """Single precision has no numbers beyond 1e38 or below 1e-38."""
+    traction = np.random.default_rng(5).standard_normal((2, 6, 8))
+    exact = CouplingSum([coupling_filter(GRIDS[0])])
+    found = exact.in_single().change([size * traction]) / size
+    expected = exact.normal([traction])
+    np.testing.assert_allclose(found, expected, atol=1e-6 * np.abs(expected).max())
+    assert not exact.in_single().change([0 * traction]).any()

@@ -7,6 +7,8 @@ transpose B^T, as work is reciprocal. Kernels are odd along one axis: their spec
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +24,12 @@ from viscontact.mechanics.halfspace.coupling_influence import CouplingTables, co
 from viscontact.mechanics.halfspace.layered_shear import LayeredShear
 from viscontact.mechanics.halfspace.layered_shear_influence import layered_coupling
 from viscontact.mechanics.halfspace.mirrored_coupling import MirroredCouplingFilter
-from viscontact.mechanics.halfspace.shear_filter import keep, odd_spectrum, wave_numbers
+from viscontact.mechanics.halfspace.shear_filter import (
+    in_single,
+    keep,
+    odd_spectrum,
+    wave_numbers,
+)
 
 
 class CouplingFilter:
@@ -41,6 +48,14 @@ class CouplingFilter:
         #: Spectra of X and Y over the imaginary unit: real at rest, as these kernels are odd.
         self.shape, self._lengths, self._symbol = shape, lengths, symbol
         self._transforms = transforms or transforms_by(fastest_transforms())
+        self._number: np.dtype[Any] = np.dtype(np.float64)
+
+    def in_single(self) -> CouplingFilter:
+        """The same maps in single precision."""
+        same = copy(self)
+        same._number = np.dtype(np.float32)
+        same._symbol = in_single(self._symbol[0]), in_single(self._symbol[1])
+        return same
 
     def normal(self, traction: Floats) -> Floats:
         """Displacement into the surface under tractions along it [Pa m]."""
@@ -59,9 +74,10 @@ class CouplingFilter:
     def _spectra(self, fields: Floats) -> Numbers:
         """Spectra of padded fields."""
         (nx, ny), (along, across) = self.shape, self._lengths
-        padded = np.zeros((len(fields), nx, across))
+        padded = np.zeros((len(fields), nx, across), self._number)
         padded[..., :ny] = fields
-        spectra = np.zeros((len(fields), along, across // 2 + 1), np.complex128)
+        kind = np.result_type(self._number, np.complex64)
+        spectra = np.zeros((len(fields), along, across // 2 + 1), kind)
         lines = spectra[:, :nx]
         keep(lines, self._transforms.real_forward(padded, lines, 2))
         return self._transforms.complex_forward(spectra, 1)
@@ -70,7 +86,7 @@ class CouplingFilter:
         """Fields of spectra, without what was padded."""
         (nx, ny), across = self.shape, self._lengths[1]
         lines = self._transforms.complex_inverse(spectra, 1)[:, :nx]
-        spare = np.empty((len(spectra), nx, across))
+        spare = np.empty((len(spectra), nx, across), self._number)
         lines = np.ascontiguousarray(lines)
         return np.asarray(self._transforms.real_inverse(lines, spare, 2)[..., :ny])
 
@@ -84,6 +100,18 @@ class CouplingSum:
     def within(self, shape: tuple[int, int]) -> CouplingSum:
         """The same maps on a smaller block."""
         return CouplingSum([part.within(shape) for part in self._parts])
+
+    def in_single(self) -> CouplingSum:
+        """The same maps in single precision."""
+        return CouplingSum([part.in_single() for part in self._parts])
+
+    def change(self, tractions: Sequence[Floats]) -> Floats:
+        """Displacement into the surface under small tractions, in units of the largest [Pa m]."""
+        # In single precision, with its few exponents, fields are transformed at order one.
+        size = max(float(np.abs(each).max()) for each in tractions)
+        if size == 0:
+            return np.zeros(tractions[0].shape[1:])
+        return size * self.normal([each / size for each in tractions]).astype(np.float64)
 
     def normal(self, tractions: Sequence[Floats]) -> Floats:
         """Displacement into the surface under tractions along it [Pa m]."""

@@ -7,6 +7,10 @@ by cosines and sines there (`mirrored_shear`), and by Fourier transforms along t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
+from typing import Any
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Numbers
@@ -18,7 +22,7 @@ from viscontact.backend.transforms import (
 )
 from viscontact.mechanics.halfspace.coupling_influence import CouplingTables
 from viscontact.mechanics.halfspace.halved_shear import mirrored_waves, part_along
-from viscontact.mechanics.halfspace.shear_filter import wrapped
+from viscontact.mechanics.halfspace.shear_filter import in_single, wrapped
 
 
 class MirroredCouplingFilter:
@@ -32,6 +36,7 @@ class MirroredCouplingFilter:
         transforms: Transforms | None = None,
     ) -> None:
         self._tables, self._mirrored, self._periodic = tables, mirrored, periodic
+        self._number: np.dtype[Any] = np.dtype(np.float64)
         self._transforms = transforms or transforms_by(fastest_transforms())
         counts = tables.along_x.shape
         nx, ny = (n // 2 if even else n for n, even in zip(counts, mirrored, strict=True))
@@ -51,6 +56,13 @@ class MirroredCouplingFilter:
         nx, ny = (n * (1 + even) for n, even in zip(shape, self._mirrored, strict=True))
         tables = self._tables.within((nx, ny))
         return MirroredCouplingFilter(tables, self._mirrored, self._periodic, self._transforms)
+
+    def in_single(self) -> MirroredCouplingFilter:
+        """The same maps in single precision."""
+        same = copy(self)
+        same._number = np.dtype(np.float32)
+        same._symbol = tuple(in_single(each) for each in self._symbol)
+        return same
 
     def normal(self, traction: Floats) -> Floats:
         """Displacement into the surface under tractions along it [Pa m]."""
@@ -98,16 +110,21 @@ class MirroredCouplingFilter:
         transforms, shape = self._transforms, self.shape
         first, last = self._order
         # Lines that are padded only are not transformed along the first axis.
-        lines = np.zeros([shape[at] if at == last else self._lengths[at] for at in (0, 1)])
+        lines = self._empty([shape[at] if at == last else self._lengths[at] for at in (0, 1)])
         lines[: shape[0], : shape[1]] = field
         lines = self._turned(lines, first, odd)
-        padded = np.zeros(self._lengths)
+        padded = self._empty(self._lengths)
         padded[part_along(last, slice(shape[last]))] = lines
         if self._plain is None:
             return self._turned(padded, last, odd)
         waves = list(self._lengths)
         waves[last] = waves[last] // 2 + 1
-        return transforms.real_forward(padded, np.empty(waves, np.complex128), last)
+        kind = np.result_type(self._number, np.complex64)
+        return transforms.real_forward(padded, np.empty(waves, kind), last)
+
+    def _empty(self, lengths: Sequence[int]) -> Floats:
+        """Field of zeros."""
+        return np.zeros(lengths, self._number)
 
     @property
     def _order(self) -> tuple[int, int]:
@@ -126,7 +143,7 @@ class MirroredCouplingFilter:
         if self._plain is None:
             field = self._turned_back(spectrum, last, odd)
         else:
-            spare = np.empty(self._lengths)
+            spare = np.empty(self._lengths, self._number)
             field = self._transforms.real_inverse(spectrum, spare, last)
         lines = np.ascontiguousarray(field[part_along(last, slice(self.shape[last]))])
         lines = self._turned_back(lines, first, odd)

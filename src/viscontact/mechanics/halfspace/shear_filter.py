@@ -118,6 +118,11 @@ class ShearFilter(PairFilter):
         return np.asarray(found * self._number.type(size))
 
 
+def in_single(numbers: Numbers) -> Numbers:
+    """Real or complex numbers in single precision."""
+    return numbers.astype(np.complex64 if np.iscomplexobj(numbers) else np.float32)
+
+
 def keep(array: Numbers, found: Numbers) -> None:
     """Write a transform to the array that it was made of, if it is not there."""
     if not np.may_share_memory(array, found):

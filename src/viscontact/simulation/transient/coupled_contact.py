@@ -27,9 +27,9 @@ from viscontact.bodies.loads.tangential import TangentialLoad
 from viscontact.mechanics.contact.contact_residual import contact_residual
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
-from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.mixing import AndersonMixing
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
+from viscontact.mechanics.contact.friction.predicted import predicted
 from viscontact.mechanics.contact.friction.region import Region
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.halfspace.coupling_filter import CouplingSum, coupling_filter
@@ -42,20 +42,23 @@ from viscontact.simulation.transient.frictionless import JointSlip, SlipTrial
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.slip_state import StepSlip, step_slip
-from viscontact.simulation.transient.slip_step import SlipGuess, solved_on
+from viscontact.simulation.transient.slip_step import (
+    SlipGuess,
+    rescaled,
+    shift_constraints,
+    solved_on,
+)
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Alternations of one step.
 MOST_ALTERNATIONS = 40
 
 #: Tolerance of the first solves, and part of the last residual that the next ones leave.
-FIRST_TOLERANCE, FORCING = 3e-3, 0.03
+FIRST_TOLERANCE, FORCING = 1e-3, 0.03
 
 #: Displacement under the pressure over that along the surface in a step, where it is not known yet,
 #: and the largest tolerance of tractions.
 USUAL_RATIO, MOST_LEFT = 10.0, 0.1
-
-TINY = float(np.finfo(np.float64).tiny)
 
 #: Part of the tolerance that the last solves leave.
 LAST = 0.5
@@ -68,6 +71,7 @@ class CoupledContact(FrictionalContact):
         super().__init__(run, friction, load)
         self._memory = CouplingHistory(run)
         self._operator, self._computed = _operator_of(run), _computed_cells(run)
+        self._search = self._operator.in_single()
         self._growth = Growth()
         #: Operators of regions, which are kept.
         self._block: tuple[Region, CouplingSum] | None = None
@@ -87,8 +91,8 @@ class CoupledContact(FrictionalContact):
         """Solve both problems of a step; the open gap holds the lift by earlier tractions."""
         response = self._respond(step)
         mixing, wanted = AndersonMixing(), max(tolerance, FIRST_TOLERANCE)
-        traction, slip = self._guess(step), None
-        lift = self._lift(response.of_traction(traction))
+        traction, slip = self._foreseen(step), None
+        lift = reached = self._lift(response.of_traction(traction))
         contact: NormalContact | None = None
         for _ in range(MOST_ALTERNATIONS):
             lifted = replace(problem, open_gap=problem.open_gap + lift)
@@ -97,13 +101,14 @@ class CoupledContact(FrictionalContact):
                 return found, None
             guess = found.found
             last, contact = contact, _contact_of(found, problem, domain)
-            start = SlipGuess(traction)
+            start = SlipGuess(self._guess(step, contact))
             if last is not None and slip is not None:
-                start = _rescaled(slip, last, contact, self._coefficient)
+                fresh = contact.entered_since(self._state.contact)
+                start = rescaled(slip, last, contact, self._coefficient, fresh)
             along = _tolerance_along(wanted, tolerance, contact, slip)
             slip = self._slip(step, response, contact, start, along)
-            traction = slip.traction
-            reached = self._lift(response.of_traction(traction))
+            change, traction = slip.traction - traction, slip.traction
+            reached = reached + self._change(response.of_traction(change))
             held = replace(problem, open_gap=problem.open_gap + reached)
             checked = contact_residual(held, domain.whole, guess)
             error = max(checked.error, slip.residual)
@@ -142,12 +147,28 @@ class CoupledContact(FrictionalContact):
         assert trial.grip is not None
         self._growth = self._growth.after(trial.grip)
 
+    def _foreseen(self, step: TimeStep) -> Floats:
+        """Tractions under the force of a step, predicted for the pressure before it [Pa]."""
+        guess, contact = self._guess(step), self._state.contact
+        if self._moves or not contact.in_contact.any():
+            return guess
+        region, point = self._region_of(contact), self._load.at(step.time, side=step.side)
+        bound = self._coefficient * (contact.pressure * contact.gripping)[region.cut]
+        constraints = shift_constraints(self._run, point, self._state.motion)
+        shift = self._domain.shift(region)
+        found = predicted(guess[:, *region.cut], bound, shift, constraints)
+        return self._domain.spread(region, found)
+
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
 
     def _lift(self, sums: tuple[Floats, ...]) -> Floats:
         """Displacement of the computed cells into the surface by sums Q of all cells [m]."""
         return self._operator.normal([each[:, *self._computed] for each in sums])
+
+    def _change(self, sums: tuple[Floats, ...]) -> Floats:
+        """The same of small changes of the sums, in single precision [m]."""
+        return self._search.change([each[:, *self._computed] for each in sums])
 
     def _slip(
         self,
@@ -179,6 +200,7 @@ class CoupledContact(FrictionalContact):
         """Continue the same run on a larger grid."""
         super().map_fields(run, enlargement)
         self._operator, self._computed = _operator_of(run), _computed_cells(run)
+        self._search = self._operator.in_single()
         self._block = None
         self._memory.map_fields(_growing(enlargement))
 
@@ -266,19 +288,3 @@ def _tolerance_along(
     if last is not None and last.displacement > 0:
         ratio = max(contact.displacement / last.displacement, 1.0)
     return max(tolerance, min(wanted * ratio, MOST_LEFT))
-
-
-def _rescaled(
-    slip: StepSlip, last: NormalContact, contact: NormalContact, coefficient: float
-) -> SlipGuess:
-    """Tractions of the last pressure on the circles of the next one, in cells that slip."""
-    slips = (slip.state == 2) & last.in_contact
-    ratio = np.divide(contact.pressure, last.pressure, out=np.ones(slips.shape), where=slips)
-    traction = slip.traction * ratio
-    # A cell that has come into contact since then is at the rim, where it slips.
-    enters = contact.in_contact & ~last.in_contact
-    if enters.any() and slip.way is not None:
-        way = slip.way[:, enters]
-        against = way / np.maximum(lengths(way), TINY)
-        traction[:, enters] = -coefficient * contact.pressure[enters] * against
-    return SlipGuess(traction, slip.motion)

@@ -63,22 +63,26 @@ class CouplingHistory:
         shape = run.grid.shape
         self._integrals: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
         self._before = tuple(np.zeros(shape) for _ in self._terms.coupled)
+        #: The last step and the response to it, until it is accepted.
+        self._latest: tuple[TimeStep, CouplingStep] | None = None
 
     def respond(self, step: TimeStep, shear: ShearStep) -> CouplingStep:
         """Response to a step, with that to its tractions."""
-        responses = tuple(response_to(step, integral) for integral in self._integrals)
-        return CouplingStep(self._terms, responses, shear, self._before)
+        if self._latest is None or self._latest[0] is not step:
+            responses = tuple(response_to(step, integral) for integral in self._integrals)
+            self._latest = step, CouplingStep(self._terms, responses, shear, self._before)
+        return self._latest[1]
 
     def accept(self, step: CouplingStep, pressure: Floats) -> None:
         """Close a step with its pressure."""
         pressure.flags.writeable = False  # the integrals keep it without a copy
-        self._before = step.of_pressure(pressure)
+        self._before, self._latest = step.of_pressure(pressure), None
         for integral in self._integrals:
             integral.accept(pressure)
 
     def map_fields(self, grown: FieldMap) -> None:
         """Continue on a larger grid."""
-        self._before = tuple(grown(each) for each in self._before)
+        self._before, self._latest = tuple(grown(each) for each in self._before), None
         for integral in self._integrals:
             integral.map_fields(grown)
 
@@ -93,4 +97,4 @@ class CouplingHistory:
         """Continue from restart data of the same run."""
         for integral, data in zip(self._integrals, restart_data["integrals"], strict=True):
             integral.restore(data)
-        self._before = tuple(restart_data["before"])
+        self._before, self._latest = tuple(restart_data["before"]), None

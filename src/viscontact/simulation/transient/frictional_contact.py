@@ -74,7 +74,7 @@ class FrictionalContact(Uncoupled):
         if contact.in_contact.any():
             tolerance = self._run.problem.tolerance
             found = (
-                self._solved(known, region, SlipGuess(self._guess(step)), tolerance)
+                self._solved(known, region, SlipGuess(self._guess(step, contact)), tolerance)
                 if joint is None
                 else joint.slip
             )
@@ -167,7 +167,7 @@ class FrictionalContact(Uncoupled):
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way)) if self._moves else slip
 
-    def _guess(self, step: TimeStep) -> Floats:
+    def _guess(self, step: TimeStep, contact: NormalContact | None = None) -> Floats:
         """Traction before the step, with its trend where the load goes on smoothly [Pa]."""
         trend, duration = self._trend
         guess = self._state.traction
@@ -175,7 +175,19 @@ class FrictionalContact(Uncoupled):
             return self._run.moved(guess, self._time, step.time)
         if not step.smooth or duration == 0:
             return guess
+        if contact is not None and self._is_sheared(step, contact):
+            return guess
         return guess + trend * (step.duration / duration)
+
+    def _is_sheared(self, step: TimeStep, contact: NormalContact) -> bool:
+        """True if a force along the surface changes more than the pressure does, by friction."""
+        # The tractions are then predicted from the force, and better so than from their trend.
+        forces = self._load.at(step.time, side=step.side).forces
+        before = self._state.forces
+        changes = [forces[axis] - before[axis] for axis in (0, 1) if forces[axis] is not None]
+        pressed = np.abs(contact.pressure - self._state.contact.pressure).sum()
+        carried = self._coefficient * float(pressed) * self._run.grid.cell_area
+        return math.hypot(*changes) > carried
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""

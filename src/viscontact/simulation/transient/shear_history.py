@@ -93,11 +93,15 @@ class ShearHistory:
         shape = (2, *run.grid.shape)
         self._integrals: list[HereditaryIntegral] = [plan.integral(shape, laws) for plan in plans]
         self._before: tuple[Floats, ...] = tuple(np.zeros(shape) for _ in plans)
+        #: The last step and the response to it, until it is accepted.
+        self._latest: tuple[TimeStep, ShearStep] | None = None
 
     def respond(self, step: TimeStep) -> ShearStep:
         """Response to a step."""
-        responses = tuple(response_to(step, integral) for integral in self._integrals)
-        return ShearStep(self._shear, responses, self._before)
+        if self._latest is None or self._latest[0] is not step:
+            responses = tuple(response_to(step, integral) for integral in self._integrals)
+            self._latest = step, ShearStep(self._shear, responses, self._before)
+        return self._latest[1]
 
     def loss(
         self, traction: Floats, domain: ShearDomain, region: Region, time: float
@@ -123,13 +127,13 @@ class ShearHistory:
     def accept(self, step: ShearStep, traction: Floats) -> None:
         """Close a step with its tractions."""
         traction.flags.writeable = False  # the integrals keep it without a copy
-        self._before = step.of(traction)
+        self._before, self._latest = step.of(traction), None
         for integral in self._integrals:
             integral.accept(traction)
 
     def map_fields(self, grown: FieldMap) -> None:
         """Continue on a larger grid."""
-        self._before = tuple(grown(each) for each in self._before)
+        self._before, self._latest = tuple(grown(each) for each in self._before), None
         for integral in self._integrals:
             integral.map_fields(grown)
 
@@ -144,4 +148,4 @@ class ShearHistory:
         """Continue from restart data of the same run."""
         for integral, data in zip(self._integrals, restart_data["integrals"], strict=True):
             integral.restore(data)
-        self._before = tuple(restart_data["before"])
+        self._before, self._latest = tuple(restart_data["before"]), None
