@@ -79,3 +79,4 @@ void define_search(nb::module_ &module);
 void define_history(nb::module_ &module);
 void define_rim(nb::module_ &module);
 void define_filters(nb::module_ &module);
+void define_advance(nb::module_ &module);

@@ -42,6 +42,9 @@ class Blocks {
 
     std::ptrdiff_t count() const { return (rows_ + most_ - 1) / most_; }
 
+    // Threads that work; a block is worked on by that of its number modulo these.
+    std::ptrdiff_t shares() const { return shares_; }
+
     // Works on all blocks, by their number, first row and the row after their last one. The work
     // does not throw. Where the system has no more threads, the caller does what is left.
     template <class Work>

@@ -1,35 +1,10 @@
 // The search for the pressure of a contact, for Python.
-#include "arrays.hpp"
 #include "search.hpp"
+#include "triples.hpp"
 
 namespace {
 
 using viscontact::Plane;
-using Triple = std::tuple<double, double, double>;
-using FreeTriple = std::tuple<bool, bool, bool>;
-using Entries = std::tuple<Triple, Triple, Triple>;
-using Square = nb::ndarray<const double, nb::shape<3, 3>, nb::device::cpu, nb::c_contig>;
-
-viscontact::Motion motion(const Triple &of) {
-    return {std::get<0>(of), std::get<1>(of), std::get<2>(of)};
-}
-
-viscontact::Free free_of(const FreeTriple &of) {
-    return {std::get<0>(of), std::get<1>(of), std::get<2>(of)};
-}
-
-Triple triple(const viscontact::Motion &of) { return {of[0], of[1], of[2]}; }
-
-Entries entries(const viscontact::Matrix &of) {
-    return {{of[0], of[1], of[2]}, {of[3], of[4], of[5]}, {of[6], of[7], of[8]}};
-}
-
-viscontact::Matrix matrix(const Square &of) {
-    viscontact::Matrix found;
-    std::copy(of.data(), of.data() + 9, found.begin());
-    return found;
-}
-
 using Line = nb::ndarray<const double, nb::ndim<1>, nb::device::cpu, nb::c_contig>;
 
 using Step =
@@ -89,7 +64,7 @@ void define_search(nb::module_ &module) {
            [](const Plane &plane, Array<float> found, Array<float> direction,
               Array<const float> residual, Array<const float> last_residual,
               Array<const bool> active, Array<const float> stiffness, double correction,
-              double shift, Square inverse, double last_slope, bool changed) {
+              double shift, Entries inverse, double last_slope, bool changed) {
                return viscontact::direct(plane, field(plane, found), field(plane, direction),
                                          field(plane, residual), field(plane, last_residual),
                                          field(plane, active), field(plane, stiffness), correction,

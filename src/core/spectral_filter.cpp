@@ -279,13 +279,15 @@ void SpectralFilter<Real>::apply(const Field<Given> &given, double size, const F
     // Work on all lines along an axis, as many at once as `step`.
     const auto each = [&](const Axis<Real> &axis, std::ptrdiff_t lines, std::ptrdiff_t step,
                           const auto &do_lines) {
-        const std::ptrdiff_t shares = (lines + step - 1) / step;
-        const auto work = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-            const Buffers<Real> buffers(axis.length);
-            for (std::ptrdiff_t share = begin; share < end; ++share)
-                do_lines(share * step, buffers);
-        };
-        of_blocks(shares, axis.length * N, threads_, work);
+        const std::ptrdiff_t bunches = (lines + step - 1) / step;
+        const Blocks blocks(bunches, axis.length * N, threads_);
+        std::vector<Buffers<Real>> buffers;  // made here, as work of threads does not throw
+        for (std::ptrdiff_t share = 0; share < blocks.shares(); ++share)
+            buffers.emplace_back(axis.length);
+        blocks.each([&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
+            for (std::ptrdiff_t bunch = begin; bunch < end; ++bunch)
+                do_lines(bunch * step, buffers[block % blocks.shares()]);
+        });
     };
     each(first_, second_.cells, N, [&](std::ptrdiff_t column, const Buffers<Real> &buffers) {
         columns_there(first_, given, column, size, waves, buffers);

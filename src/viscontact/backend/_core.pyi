@@ -68,7 +68,7 @@ def direct(
     stiffness: Singles,
     correction: float,
     shift: float,
-    inverse: Floats,
+    inverse: Sequence[Sequence[float]],
     last_slope: float,
     changed: bool,
     /,
@@ -210,3 +210,39 @@ class DoubleFilter:
     def work(self) -> int: ...
     def read_symbol(self, into: Floats, /) -> None: ...
     def apply(self, field: Floats, size: float, into: Floats, work: Floats, /) -> None: ...
+
+class Operators:
+    """Operators of a patch, for iterations of its search."""
+
+    def __init__(
+        self,
+        convolution: SingleFilter,
+        preconditioner: SingleFilter,
+        stiffness: SingleFilter,
+        near: Singles,
+        few: int,
+        /,
+    ) -> None: ...
+    @property
+    def work(self) -> int: ...
+
+# See `viscontact.mechanics.contact.passes.compiled_passes`.
+def advance(
+    plane: Plane,
+    operators: Operators,
+    work: Singles,
+    pressures: tuple[Floats, Floats],
+    actives: tuple[Bools, Bools],
+    residuals: tuple[Singles, Singles],
+    directions: tuple[Singles, Singles, Singles, Singles],
+    targets: Triple,
+    free: Free,
+    cell_area: float,
+    arm: float,
+    inverse: Matrix,
+    correction: float,
+    last_slope: float,
+    length: float,
+    unit: float,
+    /,
+) -> tuple[float, bool, float, float]: ...

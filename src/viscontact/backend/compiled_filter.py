@@ -30,17 +30,18 @@ class CompiledFilter:
     ) -> None:
         of = core.SingleFilter if single else core.DoubleFilter
         given = np.ascontiguousarray(symbol, np.float64)
-        self._filter = of(shape, lengths, even, given, team.threads)
+        #: The filter of the core itself.
+        self.of_core = of(shape, lengths, even, given, team.threads)
         self._shape, self._waves = shape, given.shape
         self._number = np.dtype(np.float32 if single else np.float64)
         self._kinds = {self._number, np.dtype(np.float64)}
-        self._work = (self._filter.work,), self._number
+        self._work = (self.of_core.work,), self._number
 
     @property
     def symbol(self) -> Floats:
         """The symbol, of the precision of the filter, in an array of its own."""
         found = np.empty(self._waves)
-        self._filter.read_symbol(found)
+        self.of_core.read_symbol(found)
         return found
 
     def apply(self, field: Field, into: Field | None, workspace: Workspace | None) -> Field:
@@ -52,7 +53,7 @@ class CompiledFilter:
         size = 1.0 if given.dtype == self._number else largest_of(given) or 1.0
         found = result if self._fits(result) else np.empty(self._shape, self._number)
         work = workspace.array(*self._work) if workspace else np.empty(*self._work)
-        self._filter.apply(given, size, found, work)
+        self.of_core.apply(given, size, found, work)
         if found is not result:
             result[...] = found
         return result

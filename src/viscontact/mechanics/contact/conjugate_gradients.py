@@ -27,11 +27,15 @@ restore a balance. The comments in `BoundedCG` number the steps of an iteration:
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Singles
+from viscontact.backend.team import Workspace
 from viscontact.mechanics.contact.contact_residual import ContactResidual, contact_residual
-from viscontact.mechanics.contact.passes.contract import StepAhead
+from viscontact.mechanics.contact.passes.compiled_passes import CompiledPasses
+from viscontact.mechanics.contact.passes.contract import StepAhead, Way
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rim_stiffness import CORRECTION, RimStiffness
@@ -108,13 +112,29 @@ class BoundedCG:
 
     def _advance(self, checked: ContactResidual) -> None:
         """Steps 2 to 5: one conjugate-gradient iteration from a measured residual."""
-        active, residual = self._next_active, self._next_residual
+        # The preconditioner drops the mean, which the core has no correction of.
+        operators = None if self._may_keep_mean else self.patch.operators.compiled
+        passes, active, residual = self._passes, self._next_active, self._next_residual
+        if operators is not None and isinstance(passes, CompiledPasses):
+            way = self._compiled_way(checked, passes, *operators)
+        else:
+            way = self._way(checked)
+        self._direction, self._spare = self._spare, self._direction
+        self._active, self._next_active = active, self._active
+        self._residual, self._next_residual = residual, self._residual
+        self._slope = way.slope
+        self.iterations += 1
+        self._take(way)
+
+    def _way(self, checked: ContactResidual) -> Way:
+        """Steps 2 to 4 by the passes: next direction, in the spare field, and step along it."""
+        active, residual, found = self._next_active, self._next_residual, self._spare
         # Step 2: release the cells that the body overlaps, and precondition.
         given = active, self._active, residual
         changed, inverse = self._passes.release(*given, self.problem.constraints)
         if changed:
-            self._rim_stiffness.follow(active, self._active, changed, self._spare)
-        found = self.patch.preconditioner.apply(residual, into=self._spare)
+            self._rim_stiffness.follow(active, self._active, changed, found)
+        self.patch.preconditioner.apply(residual, into=found)
         shift = 0.0
         if self._may_keep_mean and active.all():
             # The preconditioner drops the mean: that of the longest wave.
@@ -129,23 +149,56 @@ class BoundedCG:
             shift,
             changed=bool(changed),
         )
-        self._direction, self._spare = found, self._direction
-        self._active, self._next_active = active, self._active
-        self._residual, self._next_residual = residual, self._residual
-        self._slope = slope
-        self.iterations += 1
-        self._step()
-
-    def _step(self) -> None:
-        """Steps 4 and 5: step to the least energy on the direction, or towards the cut pressure."""
         # Step 5: where a step of about the last length leads to tension, step towards the cut and
         # balanced pressure instead of cutting afterwards.
-        if self._is_projected_trial() and self._step_to_projected():
+        is_projected = self._passes.trial(
+            self.iterate.pressure,
+            (found, self._trial_length),
+            self._ahead,
+            (self._direction, self._force_unit),
+            self.problem.constraints,
+            (self.patch.cell_area, self.patch.arm),
+        )
+        step = self._direction if is_projected else found
+        products = self._passes.inner(step, self._unit_displacement_of(step), residual)
+        return Way(slope, is_projected, *products)
+
+    def _compiled_way(
+        self, checked: ContactResidual, passes: CompiledPasses, operators: Any, memory: Workspace
+    ) -> Way:
+        """The same in one call of the compiled core."""
+        self.convolutions += 1
+        work = memory.array((operators.work,), self._spare.dtype)
+        fields = (
+            (self.iterate.pressure, self._ahead),
+            (self._next_active, self._active),
+            (self._next_residual, self._residual),
+            (self._direction, self._spare, self._change, self._rim_stiffness.values),
+        )
+        return passes.advance(
+            (operators, work),
+            fields,
+            self.problem.constraints,
+            (self.patch.cell_area, self.patch.arm),
+            checked.inverse_gram,
+            (CORRECTION, self._slope),
+            (self._trial_length, self._force_unit),
+        )
+
+    @property
+    def _trial_length(self) -> float:
+        """Length of a trial step [Pa]."""
+        return TRIAL_STEP_FACTOR * self._length * self._force_unit
+
+    def _take(self, way: Way) -> None:
+        """Steps 4 and 5: step to the least energy on the direction, or towards the cut pressure."""
+        if way.is_projected and self._steps_to_projected(way):
             return
         # Step 4: exact line search, length = -<r, d> / <d, K d>; the units hold the compliance.
-        direction = self._direction
-        change = self._unit_displacement_of(direction)
-        curvature, slope = self._passes.inner(direction, change, self._residual)
+        direction, curvature, slope = self._direction, way.curvature, way.along
+        if way.is_projected:
+            change = self._unit_displacement_of(direction)
+            curvature, slope = self._passes.inner(direction, change, self._residual)
         if curvature <= -slope / LONGEST_STEP:
             # A uniform pressure on a periodic grid displaces nothing: only a bound ends the step.
             self._slope = 0.0
@@ -164,28 +217,14 @@ class BoundedCG:
             self._move(-length, self._direction)
             self._step_to_first_bound(length)
 
-    def _is_projected_trial(self) -> bool:
-        """Put the pressure after a step of the last length aside; False without a cut."""
-        length = TRIAL_STEP_FACTOR * self._length * self._force_unit
-        return self._passes.trial(
-            self.iterate.pressure,
-            (self._direction, length),
-            self._ahead,
-            (self._spare, self._force_unit),
-            self.problem.constraints,
-            (self.patch.cell_area, self.patch.arm),
-        )
-
-    def _step_to_projected(self) -> bool:
+    def _steps_to_projected(self, way: Way) -> bool:
         """Step towards the feasible pressure set aside, at most all the way; whether far enough."""
         # Exact line search on the segment from the iterate to the projected pressure.
-        step = self._spare
-        change = self._unit_displacement_of(step)
-        curvature, slope = self._passes.inner(step, change, self._residual)
-        best = -slope / curvature if curvature > 0 else 0.0
+        best = -way.along / way.curvature if way.curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
+        step = self._spare
         self._next_step = StepAhead(self._ahead, step, self._change, best, self._force_unit)
         return True
 

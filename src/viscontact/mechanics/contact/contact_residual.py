@@ -6,7 +6,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.contact.passes.contract import StepAhead
+from viscontact.mechanics.contact.passes.contract import Gram, StepAhead
 from viscontact.mechanics.contact.patch import Patch
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 
@@ -16,7 +16,7 @@ class ContactResidual:
     """Residual of the contact conditions for a given pressure."""
 
     in_contact: Bools  # cells under pressure
-    inverse_gram: Floats  # inverse Gram matrix of the planes over these cells
+    inverse_gram: Gram  # inverse Gram matrix of the planes over these cells
     motion: Floats  # rigid motion that fits best: approach [m], tilts [rad]
     gap: Numbers  # gap with that motion, in the requested unit
     error: float  # largest gap in contact or penetration over the largest displacement [-]

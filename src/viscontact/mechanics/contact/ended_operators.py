@@ -42,6 +42,11 @@ class EndedPreconditioner(Preconditioner):
         super().__init__((inside.stop - inside.start, shape[1]), cell_size, **options)
         self._block, self._inside = shape, inside
 
+    @property
+    def compiled(self) -> tuple[None, None]:
+        """None: the core has no filters of a part of the block."""
+        return None, None
+
     def apply(self, displacement: Field, into: Field | None = None) -> Field:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
         return self._within(super().apply, displacement, into)

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from viscontact.backend import compiled
 from viscontact.backend.arrays import Field, Singles
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.backend.team import Workspace
 from viscontact.mechanics.contact.passes.contract import SearchPasses
 from viscontact.mechanics.contact.response_parts import Operator
 from viscontact.mechanics.contact.rigid_balance import RigidPlane
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner
+
+#: Part of the cells of a patch up to which a change of the active ones is followed cell by cell.
+FEW_CHANGES = 1e-3
 
 
 class PatchOperators:
@@ -46,6 +52,17 @@ class PatchOperators:
     def preconditioner(self) -> Preconditioner:
         """Approximate inverse of the convolution."""
         return self._preconditioner()
+
+    @cached_property
+    def compiled(self) -> tuple[Any, Workspace] | None:
+        """Operators of the compiled core and memory for them; None where it lacks one of them."""
+        filters = self.convolution.compiled, *self.preconditioner.compiled
+        core, of_core = compiled.core, [each.of_core for each in filters if each is not None]
+        if core is None or len(of_core) < len(filters):
+            return None
+        near = self.near_stiffness(np.empty(self._shape, np.float32))
+        few = int(FEW_CHANGES * self._shape[0] * self._shape[1])
+        return core.Operators(*of_core, near, few), self.convolution.workspace or Workspace()
 
     def near_stiffness(self, spare: Singles) -> Singles:
         """Stiffness between a cell and those around it, shape (3, 3) [1/m]; uses a field up."""

@@ -85,7 +85,7 @@ class Constraints:
         """Resultants, zero where the motion is prescribed."""
         return np.array(self.plain_targets)
 
-    @property
+    @cached_property
     def plain_targets(self) -> tuple[float, float, float]:
         """The same as plain numbers."""
         force, moment_x, moment_y = (float(each or 0.0) for each in self.resultants)

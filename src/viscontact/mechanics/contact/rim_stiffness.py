@@ -14,14 +14,11 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Singles
-from viscontact.mechanics.contact.patch import Patch
+from viscontact.mechanics.contact.patch import FEW_CHANGES, Patch
 
 #: Part of that stiffness which is taken away: up to a quarter fewer iterations than without. With
 #: 0.7 searches on slender cells take still fewer, but pressures at the rim are less exact.
 CORRECTION = 0.5
-
-#: Part of the cells of a patch up to which a change of the active ones is followed cell by cell.
-FEW_CHANGES = 1e-3
 
 
 class RimStiffness:

@@ -78,7 +78,7 @@ class Convolution:
         self._even, self._signed = mirrored, signed
         self._number = np.dtype(np.float32 if single else np.float64)
         self._complex = np.result_type(self._number, np.complex64)
-        self._team, self._workspace = team or Team(transforms.threads), workspace
+        self._team, self.workspace = team or Team(transforms.threads), workspace
         symbol = kernel_spectrum(coefficients, self._lengths, mirrored, first, transforms, signed)
         self._set_symbol(symbol)
         kind = self._number if mirrored[first] else self._complex
@@ -105,22 +105,23 @@ class Convolution:
         """Multiply spectra by a symbol from now on: in the compiled core, where that can do it."""
         lengths = self._lengths[0], self._lengths[1]
         is_single = self._number == np.float32
-        self._compiled = compiled_filter(
+        #: The same in the compiled core; None where that cannot do it.
+        self.compiled = compiled_filter(
             *(self._team, self.shape, lengths, self._even, symbol), single=is_single
         )
-        if self._compiled is None:
+        if self.compiled is None:
             kind = self._number if self._signed is None else self._complex
             self._symbol = symbol.astype(kind)
 
     @property
     def _known_symbol(self) -> Numbers:
         """The symbol, which the core has in an order of its own."""
-        return self._symbol if self._compiled is None else self._compiled.symbol
+        return self._symbol if self.compiled is None else self.compiled.symbol
 
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
-        if self._compiled is not None:
-            return self._compiled.apply(pressure, into, self._workspace)
+        if self.compiled is not None:
+            return self.compiled.apply(pressure, into, self.workspace)
         result = np.empty(self.shape) if into is None else into
         # 1. Scale the pressure to order one; 2. transform, multiply by the symbol, transform back;
         # 3. undo the scaling.
@@ -148,7 +149,7 @@ class Convolution:
         """Array for the spectrum along the first axis; in the padded lines if they hold it."""
         if len(self._waves) == 1:
             return self._padded_lines(0, 1, self._waves[0].stop).data
-        return self._workspace.array(*self._half) if self._workspace else np.empty(*self._half)
+        return self.workspace.array(*self._half) if self.workspace else np.empty(*self._half)
 
     def _for_each_block(self, blocks: Sequence[slice], work: _Work) -> None:
         """Work on all blocks; with several threads, each takes every so many of them."""

@@ -326,6 +326,10 @@ class EndedConvolution:
     Cells beyond a plane are outside the body: their pressure has no effect, and they stay at rest.
     """
 
+    #: The compiled core has no filter for it.
+    compiled: None = None
+    workspace: None = None
+
     def __init__(
         self,
         ended: EndedRows,
@@ -416,6 +420,10 @@ def _corrections_of(
 
 class WeightedOperators:
     """Weighted sum of operators on the same block."""
+
+    #: The compiled core has no filter for it.
+    compiled: None = None
+    workspace: None = None
 
     def __init__(
         self, operators: Sequence[Operator], weights: Sequence[float], uniform: float = 0.0

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from viscontact.backend.arrays import Floats, Integers, Numbers
+from viscontact.backend.compiled_filter import CompiledFilter
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Field, Transforms
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
@@ -82,6 +83,11 @@ class Preconditioner:
         """Values at all wave numbers, linear in the logarithm, from those at `waves`."""
         _, before, part = self._interpolation
         return np.asarray(known[before] + np.diff(known)[before] * part)
+
+    @property
+    def compiled(self) -> tuple[CompiledFilter | None, CompiledFilter | None]:
+        """Filters of `apply` and `stiffness_of` in the compiled core, where that can do them."""
+        return self._filter.compiled, self._least.compiled
 
     def apply(self, displacement: Field, into: Field | None = None) -> Field:
         """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""

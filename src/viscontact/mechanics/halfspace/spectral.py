@@ -81,6 +81,16 @@ class PeriodicConvolution:
         total._filter = SpectrumFilter(self._spectra, symbol.astype(self._filter.symbol.dtype))
         return total
 
+    @property
+    def compiled(self) -> CompiledFilter | None:
+        """The same in the compiled core; None where that cannot do it."""
+        return self._filter.compiled
+
+    @property
+    def workspace(self) -> Workspace:
+        """Memory that it works in."""
+        return self._spectra.workspace
+
     def apply(self, pressure: Field, into: Field | None = None) -> Field:
         """Displacement over compliance [Pa m] under a pressure [Pa]; written to `into` if given."""
         return self._filter.apply(pressure, into)
@@ -133,13 +143,13 @@ class SpectrumFilter:
 
     def __init__(self, spectra: Spectra, symbol: Numbers) -> None:
         self.symbol = symbol
-        self._spectra, self._compiled = spectra, spectra.compiled(symbol)
+        self._spectra, self.compiled = spectra, spectra.compiled(symbol)
 
     def apply(self, field: Field, into: Field | None = None) -> Field:
         """Return the filtered field, in an array if one is given."""
-        if self._compiled is None:
+        if self.compiled is None:
             return self._spectra.filtered(field, self.symbol, into)
-        return self._compiled.apply(field, into, self._spectra.workspace)
+        return self.compiled.apply(field, into, self._spectra.workspace)
 
 
 class Spectra:

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers, Singles
-from viscontact.mechanics.contact.passes.contract import Measured, SearchPasses, StepAhead
+from viscontact.mechanics.contact.passes.contract import (
+    Gram,
+    Measured,
+    SearchPasses,
+    StepAhead,
+    Way,
+)
 from viscontact.mechanics.contact.rigid_balance import Constraints, RigidPlane
 
 
@@ -35,16 +42,16 @@ class CompiledPasses(SearchPasses):
             *(self._cells, *values, *spring, tuple(motion.tolist()), constraints.free_motions),
             *(unit, *into, taken),
         )
-        return Measured(np.array(found), np.array(inverse), largest, error)
+        return Measured(np.array(found), inverse, largest, error)
 
     def release(
         self, active: Bools, last: Bools, gap: Singles, constraints: Constraints
-    ) -> tuple[int, Floats | None]:
+    ) -> tuple[int, Gram | None]:
         """See `SearchPasses.release`."""
         released, changed, inverse = self._core.release(
             self._cells, active, last, gap, constraints.free_motions
         )
-        return changed, np.array(inverse) if released else None
+        return changed, inverse if released else None
 
     def follow(self, stiffness: Singles, active: Bools, last: Bools, near: Singles) -> None:
         """See `SearchPasses.follow`."""
@@ -56,18 +63,43 @@ class CompiledPasses(SearchPasses):
         last: tuple[Singles, Singles, float],
         residual: tuple[Singles, Bools],
         stiffness: tuple[Singles, float],
-        inverse_gram: Floats,
+        inverse_gram: Gram,
         shift: float,
         *,
         changed: bool,
     ) -> float:
         """See `SearchPasses.direct`."""
         direction, last_gap, last_slope = last
+        inverse = _plain(inverse_gram)
         slope: float = self._core.direct(
             *(self._cells, found, direction, residual[0], last_gap, residual[1]),
-            *(*stiffness, shift, inverse_gram, last_slope, changed),
+            *(*stiffness, shift, inverse, last_slope, changed),
         )
         return slope
+
+    def advance(
+        self,
+        operators: tuple[Any, Singles],
+        fields: tuple[tuple[Numbers, ...], ...],
+        constraints: Constraints,
+        size: tuple[float, float],
+        inverse_gram: Gram,
+        last: tuple[float, float],
+        step: tuple[float, float],
+    ) -> Way:
+        """Release, precondition, `direct` and `trial` in one call, with products of the step.
+
+        `operators` are those of the core with memory for their work; `fields` pressure and the one
+        ahead; active cells and the last ones; residual and the last one; direction, spare field,
+        unit displacement and stiffness. `last` is the correction of the stiffness and the last
+        slope, `step` the length of a trial step and the unit of directions [Pa]. The new direction
+        is in the spare field, and the way to a projected pressure in that of the last direction.
+        """
+        balances = constraints.plain_targets, constraints.free_motions, *size
+        found = self._core.advance(
+            self._cells, *operators, *fields, *balances, _plain(inverse_gram), *last, *step
+        )
+        return Way(*found)
 
     def trial(
         self,
@@ -117,3 +149,11 @@ class CompiledPasses(SearchPasses):
     def sums(self, values: Floats) -> Floats:
         """See `SearchPasses.sums`."""
         return np.array(self._core.sums(self._cells, values))
+
+
+def _plain(gram: Gram) -> tuple[tuple[float, float, float], ...]:
+    """Rows of plain numbers of a matrix."""
+    if isinstance(gram, tuple):
+        return gram
+    first, second, third = gram.tolist()
+    return tuple(first), tuple(second), tuple(third)

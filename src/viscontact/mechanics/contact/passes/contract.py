@@ -8,10 +8,14 @@ keeps the passes that it began with.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import TypeAlias
 
 from viscontact.backend.arrays import Bools, Floats, Numbers, Singles
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.rigid_balance import Constraints
+
+#: Inverse Gram matrix: an array, or rows of plain numbers of passes that take them so.
+Gram: TypeAlias = Floats | tuple[tuple[float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,9 +23,20 @@ class Measured:
     """Gap under a pressure, with the rigid motion that fits it best."""
 
     motion: Floats  # approach [m], tilts [rad]
-    inverse_gram: Floats  # of the planes over the cells under pressure
+    inverse_gram: Gram  # of the planes over the cells under pressure
     largest: float  # displacement [m]
     error: float  # largest gap under pressure or penetration, in the unit of the gap
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """Next direction of a search and the step that is tried first, as products of it."""
+
+    slope: float  # of the direction against the residual
+    #: The step leads to a pressure set aside, cut off and balanced; else it is the direction.
+    is_projected: bool
+    curvature: float  # product of the step and its unit displacement
+    along: float  # product of the step and the residual
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +77,7 @@ class SearchPasses(ABC):
     @abstractmethod
     def release(
         self, active: Bools, last: Bools, gap: Singles, constraints: Constraints
-    ) -> tuple[int, Floats | None]:
+    ) -> tuple[int, Gram | None]:
         """Add overlapped cells to the active ones, and set the gap of the others to zero.
 
         Returns the number of active cells unlike the last ones, and the inverse Gram matrix over
@@ -80,7 +95,7 @@ class SearchPasses(ABC):
         last: tuple[Singles, Singles, float],
         residual: tuple[Singles, Bools],
         stiffness: tuple[Singles, float],
-        inverse_gram: Floats,
+        inverse_gram: Gram,
         shift: float,
         *,
         changed: bool,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Numbers, Singles
-from viscontact.mechanics.contact.passes.contract import Measured, SearchPasses, StepAhead
+from viscontact.mechanics.contact.passes.contract import Gram, Measured, SearchPasses, StepAhead
 from viscontact.mechanics.contact.rigid_balance import (
     Constraints,
     Moments,
@@ -105,13 +105,14 @@ class NumPyPasses(SearchPasses):
         last: tuple[Singles, Singles, float],
         residual: tuple[Singles, Bools],
         stiffness: tuple[Singles, float],
-        inverse_gram: Floats,
+        inverse_gram: Gram,
         shift: float,
         *,
         changed: bool,
     ) -> float:
         """See `SearchPasses.direct`."""
         (gap, active), (direction, last_gap, last_slope) = residual, last
+        inverse = np.asarray(inverse_gram)
 
         def corrected(block: RigidPlane) -> None:
             lacking = stiffness[1] * np.maximum(stiffness[0][block.rows], 0)
@@ -121,14 +122,14 @@ class NumPyPasses(SearchPasses):
                 found[block.rows] += np.float32(shift)
 
         self._plane.each(corrected)
-        self._project(found, active, inverse_gram)
+        self._project(found, active, inverse)
         slope, slope_before = self.inner(found, gap, last_gap)
         # beta = max(<z, r - r_old> / <z_old, r_old>, 0)
         factor = 0.0
         if last_slope > 0:
             factor = max((slope - slope_before) / last_slope, 0.0)
             if changed:
-                self._project(direction, active, inverse_gram)
+                self._project(direction, active, inverse)
 
         def conjugated(block: RigidPlane) -> None:
             here = found[block.rows]
