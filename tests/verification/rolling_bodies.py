@@ -81,13 +81,16 @@ def dissimilar(
     *,
     exchanged: bool = False,
     creepage: float | None = None,
+    iron: vc.Material | None = None,
 ) -> vc.ContactState:
     """Coupled bodies, rolling under a part of what friction carries or under a creepage."""
     cell = 0.2 / cells
     steps = round(way * cells / 2)
     count = cells + 16 + steps
     count += count % 2
-    plane, roller = (ALUMINIUM, IRON) if exchanged else (IRON, ALUMINIUM)
+    plane, roller = iron or IRON, ALUMINIUM
+    if exchanged:
+        plane, roller = roller, plane
     force_y = part * friction * DISSIMILAR_FORCE
     path = {"y": [0.0, steps * cell], "rolling": True, "creepage": creepage}
     *_, last = vc.march(
