@@ -38,6 +38,13 @@ class Buffers {
     std::unique_ptr<Real[]> memory_;
 };
 
+// Transforms numbers in one of the first two buffers; the same function for all stages.
+template <class Real>
+FOR_WIDE_PROCESSORS Real *transform(const Passes<Real> &passes, Real *in, Real *out,
+                                    const Buffers<Real> &buffers, Part given, Part needed) {
+    return transformed(passes, in, out, buffers.third, given, needed);
+}
+
 // Transforms columns from a place on along the first axis.
 template <class Real, class Given>
 FOR_WIDE_PROCESSORS void columns_there(const Axis<Real> &axis, const Field<Given> &field,
@@ -50,7 +57,7 @@ FOR_WIDE_PROCESSORS void columns_there(const Axis<Real> &axis, const Field<Given
         load(field.row(i) + column, field.columns - column, size, in + axis.place(i) * N);
     for (std::ptrdiff_t i = axis.cells; i < axis.given(); ++i) clear(in + axis.place(i) * N);
     const Real *found =
-        transformed(axis.there, in, buffers.second, buffers.third, axis.data, Part::ALL);
+        transform(axis.there, in, buffers.second, buffers, axis.data, Part::ALL);
     Real *to = waves.first + column;
     if (axis.even) std::copy(found, found + N, to);
     for (std::ptrdiff_t k = axis.even; 2 * k <= length; ++k) {
@@ -85,7 +92,7 @@ FOR_WIDE_PROCESSORS void columns_back(const Axis<Real> &axis, const Waves<Real> 
             of_reals(one, one + waves.imaginary, in + k * N, b);
     }
     const Real *found =
-        transformed(axis.back, in, buffers.second, buffers.third, Part::ALL, axis.data);
+        transform(axis.back, in, buffers.second, buffers, Part::ALL, axis.data);
     for (std::ptrdiff_t i = 0; i < axis.cells; ++i)
         store(found + axis.place(i) * N, field.columns - column, static_cast<Found>(factor),
               field.row(i) + column);
@@ -197,7 +204,7 @@ FOR_WIDE_PROCESSORS void filter_rows(const Axis<Real> &axis, const Rows<Real> &r
     Real *in = buffers.first;
     for (std::ptrdiff_t j = axis.cells; j < axis.given(); ++j) clear(in + axis.place(j) * N);
     gather(axis, rows, in);
-    Real *given = transformed(axis.there, in, buffers.second, buffers.third, axis.data, Part::ALL);
+    Real *given = transform(axis.there, in, buffers.second, buffers, axis.data, Part::ALL);
     Real *to = given == in ? buffers.second : in;
     if (axis.even && complex)
         filter_cosines<true>(axis, symbol, given, to);
@@ -208,7 +215,7 @@ FOR_WIDE_PROCESSORS void filter_rows(const Axis<Real> &axis, const Rows<Real> &r
     else
         filter_reals(axis, symbol, given, to);
     scatter(axis, rows, complex,
-            transformed(axis.back, to, given, buffers.third, Part::ALL, axis.data));
+            transform(axis.back, to, given, buffers, Part::ALL, axis.data));
 }
 
 }  // namespace

@@ -527,8 +527,8 @@ def scalars_of(parts: Container[str] = (), over: str = "time") -> dict[str, Vari
 
 def value_of(state: ContactState, name: str) -> float:
     """Scalar of a state."""
-    period, length = SCALARS[name].per_length_of, state.grid.line_length
-    if period and length:
+    period = SCALARS[name].per_length_of
+    if period and (length := state.grid.line_length):
         return float(getattr(state, period)) / length
     return float(getattr(state, name))
 

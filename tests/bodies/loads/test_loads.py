@@ -85,6 +85,17 @@ def test_eccentricity_and_tilt_jump_with_their_points():
     assert (after.eccentricity_x, after.tilt_y) == (-2e-3, 1e-3)
 
 
+def test_after_the_last_point_all_that_is_prescribed_is_held_there():
+    history = ForceHistory(
+        [0, 1, 1], [0, 4, 5], eccentricity_x=[0, 1e-3, 2e-3], tilt_y=[0, 0, 1e-4]
+    )
+    for side in ("left", "right"):
+        assert history.at(7.0, side=side) == history.at(1.0)
+    assert history.at(1.0, side="left").force == 4
+    with pytest.raises(ValueError, match="side must be"):
+        history.at(7.0, side="middle")
+
+
 def test_before_the_first_point_tilt_and_eccentricity_have_their_first_values():
     late = ForceHistory([2, 3], 5.0, eccentricity_y=[1e-3, 2e-3], tilt_x=[1e-4, 2e-4])
     assert late.at(0.0) == LoadPoint(0.0, 0.0, 1e-3, 1e-4, None)

@@ -58,6 +58,16 @@ class PiecewiseHistory(LoadHistory):
         5e-06
         """
         instant = finite("time", time, "s")
+        at = history_points.side_of_jump(side)
+        return self._held if instant > self._instants[-1] else self._point(instant, at)
+
+    @cached_property
+    def _held(self) -> LoadPoint:
+        """Load after the last point."""
+        return self._point(self._instants[-1], "right")
+
+    def _point(self, instant: float, side: str) -> LoadPoint:
+        """Load at an instant [s]."""
         values: dict[str, Any] = {"force": None, self.control: self._level(instant, side)}
         for name in history_points.TAIL:
             of = getattr(self, name)

@@ -132,7 +132,6 @@ class ContactTrend:
 
 def _beyond_middle(field: Field, mirrored: tuple[bool, bool]) -> Field:
     """The cells of a field beyond the middle of the axes along which it is even."""
-    rows, columns = (
-        count // 2 if even else 0 for count, even in zip(field.shape, mirrored, strict=True)
-    )
+    rows = field.shape[0] // 2 if mirrored[0] else 0
+    columns = field.shape[1] // 2 if mirrored[1] else 0
     return field[rows:, columns:]

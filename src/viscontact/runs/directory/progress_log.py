@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
+from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import Any, Self
@@ -182,13 +183,20 @@ def reached_in(entries: Mapping[str, Any]) -> float:
 
 def _entries(state: ContactState) -> dict[str, Any]:
     entries: dict[str, Any] = {state.over: float(getattr(state, state.over))}
-    for name, variable in scalars_of(parts_of(state), state.over).items():
+    for name, whole in _scalars(parts_of(state), state.over):
         number = value_of(state, name)
-        whole = variable.kind.startswith("i")
         # JSON has no NaN.
         entries[name] = (int(number) if whole else number) if math.isfinite(number) else None
     outcome = Outcome(state.outcome).name.lower()
     return {**entries, "outcome": outcome, "warnings": list(state.warnings)}
+
+
+@lru_cache(maxsize=8)
+def _scalars(parts: frozenset[str], over: str) -> tuple[tuple[str, bool], ...]:
+    """Names of the scalars of a line, and whether they are whole numbers."""
+    return tuple(
+        (name, each.kind.startswith("i")) for name, each in scalars_of(parts, over).items()
+    )
 
 
 def _errors(errors: Mapping[str, Floats], row: int) -> dict[str, float | str | None]:
