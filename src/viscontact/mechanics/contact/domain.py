@@ -13,7 +13,6 @@ from viscontact.backend.compiled import core_by, fastest_inner_loops
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Transforms, fast_length, fastest_transforms, transforms_by
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.contact.cell_fields import is_even
 from viscontact.mechanics.contact.ended_operators import EndedOperators
 from viscontact.mechanics.contact.passes.choice import passes_over
 from viscontact.mechanics.contact.patch import Patch, PatchOperators
@@ -52,7 +51,8 @@ class ContactDomain:
     (`convolution`). The last patch is kept, since a creeping contact stays in it for many steps.
 
     A problem that is even across x = 0 or y = 0 (`mirrored`) needs the cells beyond only: see
-    `reduce_by_symmetry` and `reduced_constraints`. Along a periodic axis a grid is not mirrored,
+    `reduce_by_symmetry` and `reduced_constraints`. With `even_rows` alone pressures are even across
+    x = 0 on all cells, of an odd number of rows. Along a periodic axis a grid is not mirrored,
     patches are as long as the period, and nothing is padded. On a grid periodic along both axes the
     preconditioner is the exact inverse; along one, displacement counts from that of a line load at
     the distance of the grid's size.
@@ -68,6 +68,7 @@ class ContactDomain:
         *,
         response: SurfaceResponse = HALF_SPACE,
         mirrored: tuple[bool, bool] = (False, False),
+        even_rows: bool = False,
         transforms: Transforms | None = None,
         inner_loops: str | None = None,
     ) -> None:
@@ -92,7 +93,9 @@ class ContactDomain:
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
-        self._ended = EndedOperators(grid, mirrored, self._transforms, self.team)
+        self._ended = EndedOperators(
+            grid, mirrored, self._transforms, self.team, even=even_rows or mirrored[0]
+        )
         self._build_operators()
         self._last = self._found = self.whole
         self._spans: tuple[slice, slice] | None = None  # of the cells that the last one is around
@@ -374,18 +377,6 @@ def _reduced(
         if mirrored[axis]:
             constraints = constraints.halved(axis)
     return constraints
-
-
-def mirrored_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) -> tuple[bool, bool]:
-    """Evenness of gap and load across x = 0 and y = 0, on a grid that is centred there."""
-    along_x, along_y = (
-        even_load[axis]
-        and not grid.periodic[axis]
-        and grid.centre[axis] == 0
-        and is_even(open_gap, axis)
-        for axis in (0, 1)
-    )
-    return along_x, along_y
 
 
 def _widen(span: slice, cells: int, *, one_sided: bool) -> slice:

@@ -69,9 +69,17 @@ class EndedOperators:
     """Operators of half-spaces that end, over the independent part of a grid."""
 
     def __init__(
-        self, grid: Grid, mirrored: tuple[bool, bool], transforms: Transforms, team: Team
+        self,
+        grid: Grid,
+        mirrored: tuple[bool, bool],
+        transforms: Transforms,
+        team: Team,
+        *,
+        even: bool,
     ) -> None:
+        """Take a grid, of which `mirrored` keeps halves; `even` are pressures across x = 0."""
         self._grid, self._mirrored, self._transforms, self._team = grid, mirrored, transforms, team
+        self._even = even
         self._first_row = grid.shape[0] // 2 if mirrored[0] else 0
         self._rows: dict[tuple[EndedResponse, MovingCompliance | None], EndedRows] = {}
 
@@ -146,7 +154,7 @@ class EndedOperators:
             # The plane x = 0 of a mirrored domain is one of symmetry, as a wall is.
             kinds = (response.free[0] and not self._mirrored[0], response.free[1])
             self._rows[response, moving] = ended_rows(
-                replace(response, free=kinds),
+                replace(response, free=kinds, even=self._even),
                 shape,
                 self._grid.cell_size,
                 self._borders_of(response),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -48,6 +49,8 @@ class EndedResponse(HalfSpaceResponse):
     poisson_ratio: float
     planes: tuple[float | None, float | None]  # at -x and at +x [m]; None: it goes on
     free: tuple[bool, bool]  # free of stress; otherwise held by a frictionless wall
+    #: All pressures are even about the middle between two planes.
+    even: bool = field(default=False, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -207,9 +210,7 @@ def _rows_of_period(
     before, after = borders
     begin = max(before or 0, 0)
     rows = range(begin, shape[0] if after is None else min(after, shape[0]))
-    bases = halfspace.periodic_ends.bases_of_period(
-        response.poisson_ratio, response.free, rows, borders, cell_size, shape[1]
-    )
+    bases = halfspace.periodic_ends.bases_of_period(response, rows, borders, cell_size, shape[1])
     table = np.empty((0, 0))
     if before is None or after is None:
         count = shape[0] - (before or 0) if after is None else after - begin
@@ -279,7 +280,7 @@ def _bases_of_ends(
         return ()
     if before is not None and after is not None:
         stack = response.stack if isinstance(response, EndedLayers) else None
-        strip = halfspace.strip_basis.StripRows(after - before, free, stack)
+        strip = halfspace.strip_basis.StripRows(after - before, free, response.even, stack)
         inside = range(rows.start - before, rows.stop - before)
         shared = (ratio, strip, inside, cell_size, width)
         stack = response.stack if isinstance(response, EndedLayers) else None

@@ -9,7 +9,7 @@ as a pressure that is uniform over each cell, with the factors sin(k dy/2)/(k dy
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legvander
@@ -30,6 +30,9 @@ from viscontact.mechanics.halfspace.strip_basis import (
     cell_means,
     strip_basis,
 )
+
+if TYPE_CHECKING:
+    from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 
 #: Largest entry that the operator of k = 0 may leave out, relative to the largest one.
 NEGLECTED = 1e-10
@@ -52,8 +55,7 @@ class PeriodicBasis:
 
 
 def bases_of_period(
-    poisson_ratio: float,
-    free: tuple[bool, bool],
+    response: EndedResponse,
     rows: range,
     borders: tuple[int | None, int | None],
     cell_size: tuple[float, float],
@@ -61,10 +63,11 @@ def bases_of_period(
 ) -> tuple[PeriodicBasis, ...]:
     """What free ends at borders of rows of a domain add on some of its rows."""
     before, after = borders
+    poisson_ratio, free = response.poisson_ratio, response.free
     if not rows or not any(free):
         return ()
     if before is not None and after is not None:
-        strip = StripRows(after - before, free)
+        strip = StripRows(after - before, free, response.even)
         inside = range(rows.start - before, rows.stop - before)
         shared = (poisson_ratio, strip, inside, cell_size, columns)
         return tuple(periodic_strip_basis(*shared, odd=odd) for odd in strip.kinds)

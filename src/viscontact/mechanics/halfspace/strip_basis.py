@@ -43,6 +43,7 @@ class StripRows:
 
     count: int
     free: tuple[bool, bool]  # at -x and at +x; otherwise a plane about which pressure is even
+    even: bool = False  # pressures are even about the middle, also between two free faces
     stack: ElasticStack | None = None  # layers on a rigid base in place of a half-space
 
     @property
@@ -53,7 +54,7 @@ class StripRows:
     @property
     def kinds(self) -> tuple[bool, ...]:
         """Kinds of pressure about that plane: even, and between two free faces odd."""
-        return (False, True) if all(self.free) else (False,)
+        return (False, True) if all(self.free) and not self.even else (False,)
 
     def from_face(self, rows: range) -> tuple[Floats, Floats]:
         """Distances of rows from the nearer free face in whole rows, and their signs if odd."""

@@ -14,8 +14,9 @@ from viscontact.bodies.grid import MESH_QUANTITIES, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadPoint
 from viscontact.mechanics.contact.body_edge import END_DEPTH, end_cells, trace_outline
-from viscontact.mechanics.contact.domain import ContactDomain, mirrored_axes
+from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.line_load import line_load, peak_line_load
+from viscontact.mechanics.contact.mirror_symmetry import even_axes, mirrored_axes
 from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.contact.rim_extent import mean_chords
 from viscontact.mechanics.halfspace.ended_half_space import has_even_ends, planes_in
@@ -190,16 +191,20 @@ def _solve_on(
     """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
     indenter, point = pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    even = (
+    even_load = (
         has_even_ends(pressing.response) and not (point.eccentricity_x or point.tilt_x),
         not (point.eccentricity_y or point.tilt_y),
     )
+    even = even_axes(grid, open_gap, even_load)
     found = elastic_contact(
         open_gap,
         pressing.compliance,
         point,
         ContactDomain(
-            grid, response=pressing.response, mirrored=mirrored_axes(grid, open_gap, even)
+            grid,
+            response=pressing.response,
+            mirrored=mirrored_axes(grid, even),
+            even_rows=even[0],
         ),
         tolerance=tolerance,
         start=start,

@@ -11,7 +11,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.mechanics.contact.mirror_symmetry import even_axes, mirrored_axes
 from viscontact.mechanics.contact.moving_domain import MovingDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
@@ -134,7 +134,7 @@ class SteadySolver:
         contact = self.problem.contact
         alike = all(body.is_even for body in contact.ended_bodies.values())
         loads = alike and contact.load.is_even(0), contact.load.is_even(1)
-        return mirrored_axes(grid, open_gap, loads)[1 - self.problem.axis]
+        return mirrored_axes(grid, even_axes(grid, open_gap, loads))[1 - self.problem.axis]
 
     def coarser_grid(self, grid: Grid) -> Grid | None:
         """Half the cells along each axis; None where there are few.

@@ -12,7 +12,7 @@ from viscontact.backend.compiled import NUMPY
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import fastest_transforms, transforms_by
 from viscontact.bodies.grid import AutomaticGrid, Grid
-from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.mechanics.contact.mirror_symmetry import even_axes
 from viscontact.simulation.checks.ends import (
     check_ends,
     check_grid_of_ends,
@@ -253,7 +253,7 @@ def _centred(problem: SteadyProblem, reach: Floats) -> tuple[bool, bool]:
     around = Grid((EVEN_SAMPLES, EVEN_SAMPLES), (2 * float(reach[0]), 2 * float(reach[1])))
     alike = all(body.is_even for body in problem.contact.ended_bodies.values())
     both = (alike and load.is_even(0), load.is_even(1))
-    even = mirrored_axes(around, gap_on(problem, around), both)[across]
+    even = even_axes(around, gap_on(problem, around), both)[across]
     return across == 0 and even, across == 1 and even
 
 

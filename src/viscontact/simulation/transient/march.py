@@ -197,6 +197,7 @@ def domain_of(run: RunSetup) -> ContactDomain:
         run.grid,
         response=terms[0].response,
         mirrored=run.mirrored,
+        even_rows=run.even[0],
         transforms=transforms_by(run.transforms, run.threads),
         inner_loops=run.inner_loops,
     )

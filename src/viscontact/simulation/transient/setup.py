@@ -19,7 +19,7 @@ from viscontact.bodies.grid import Grid
 from viscontact.bodies.indenters import Indenter, PlacedIndenter
 from viscontact.bodies.indenters.periodic_body import PeriodicBody
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.mechanics.contact.domain import mirrored_axes
+from viscontact.mechanics.contact.mirror_symmetry import even_axes, mirrored_axes
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.extrapolation import shifted
 from viscontact.mechanics.time_integration.fixed_steps import step_ends
@@ -90,7 +90,12 @@ class RunSetup:
     @cached_property
     def mirrored(self) -> tuple[bool, bool]:
         """True for x = 0 and for y = 0 if shape and load are even: one half is computed."""
-        return _mirrored(self.problem, self.open_gap, self.grid)
+        return mirrored_axes(self.grid, self.even)
+
+    @cached_property
+    def even(self) -> tuple[bool, bool]:
+        """True for x = 0 and for y = 0 if shape and load are even, also on odd numbers of cells."""
+        return _even(self.problem, self.open_gap, self.grid)
 
     @cached_property
     def tilts_from_datum(self) -> bool:
@@ -100,7 +105,7 @@ class RunSetup:
     @cached_property
     def ends_error(self) -> float:
         """Part of the displacement by free ends that their operator may miss; 0 without [-]."""
-        return error_of_ends(self.problem, even=self.mirrored[0])
+        return error_of_ends(self.problem, even=self.even[0])
 
     @property
     def error_of_ends(self) -> float:
@@ -252,7 +257,7 @@ def _gap(indenter: Indenter, grid: Grid) -> Floats:
     return indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
-def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
+def _even(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
     ends_alike = all(body.is_even for body in problem.ended_bodies.values())
     loads = (ends_alike and problem.load.is_even(0), problem.load.is_even(1))
     if problem.is_coupled and problem.tangential is not None:
@@ -261,10 +266,10 @@ def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, boo
         along_x, along_y, turning = problem.tangential.acts
         loads = loads[0] and not along_x and not turning, loads[1] and not along_y and not turning
     if problem.motion.stands:
-        return mirrored_axes(grid, open_gap, loads)
+        return even_axes(grid, open_gap, loads)
     # Across the motion only, on the axis, and with all of the body that the grid comes to see.
     seen = transient.cells_seen(grid, problem.motion)
-    even = mirrored_axes(
+    even = even_axes(
         grid,
         problem.indenter.gap(seen[0][:, None], seen[1]),
         loads,
@@ -279,7 +284,7 @@ def _mirrored(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, boo
 def plan_history(problem: Problem, open_gap: Floats, grid: Grid) -> list[HereditaryPlan]:
     """Hereditary integrals for the terms of a problem's surface on a grid; open gap [m]."""
     # Pressure and unit displacement are kept, of all cells that are computed.
-    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
+    numbers = 2 * open_gap.size // 2 ** sum(mirrored_axes(grid, _even(problem, open_gap, grid)))
     return _planned(problem, [term.compliance for term in problem.surface.terms], numbers)
 
 
