@@ -13,8 +13,8 @@ from viscontact.bodies.indenters import Indenter
 #: sharp end, and falls to zero before a logarithmic one.
 END_DEPTH = 2
 
-#: Halvings of a cell, enough to locate the outline to rounding.
-BISECTIONS = 45
+#: Parts into which a cell is divided again and again, enough to locate the outline to rounding.
+PARTS = (16,) * 11 + (2,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class Outline:
 
 
 def trace_outline(indenter: Indenter, grid: Grid, open_gap: Floats | None = None) -> Outline:
-    """Find by bisection where an indenter's gap becomes +inf between cell centres.
+    """Find by division where an indenter's gap becomes +inf between cell centres.
 
     `open_gap` is that gap on the cells [m], if it is known.
     """
@@ -65,15 +65,16 @@ def _outline_crossings(
     crossings = np.full(shape, np.nan)
     # From the centre inside the body towards the one outside.
     inner, outer = np.where(inside[i, j], i, i + 1), np.where(inside[i, j], i + 1, i)
-    low, high = np.zeros(len(i)), np.ones(len(i))
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
+    begin, width = np.zeros(len(i)), 1.0
+    for parts in PARTS:
+        width /= parts
+        places = begin + width * np.arange(1.0, parts)[:, None]
         is_inside = np.isfinite(
             indenter.gap(
-                x[inner, j] + middle * (x[outer, j] - x[inner, j]),
-                y[inner, j] + middle * (y[outer, j] - y[inner, j]),
+                x[inner, j] + places * (x[outer, j] - x[inner, j]),
+                y[inner, j] + places * (y[outer, j] - y[inner, j]),
             )
         )
-        low, high = np.where(is_inside, middle, low), np.where(is_inside, high, middle)
-    crossings[i, j] = (low + high) / 2
+        begin = begin + width * np.logical_and.accumulate(is_inside, axis=0).sum(axis=0)
+    crossings[i, j] = begin + width / 2
     return crossings
