@@ -12,20 +12,18 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev, polynomial
-from numpy.polynomial.legendre import leggauss, legvander
 
 from viscontact.backend.arrays import Floats
 
-#: Argument up to which K_0 and K_1 are power series, and terms of these; terms of the Chebyshev
+#: Arguments up to which K_0 and K_1 are power series, with terms of these; terms of the Chebyshev
 #: series in 1/x beyond.
-NEAR, TERMS, BEYOND = 2.0, 10, 18
+NEAR, BEYOND = ((0.05, 4), (2.0, 10)), 18
 
 #: Step and end of the integral that gives the latter, by the trapezium rule.
 STEP, END = 0.05, 5.0
 
-#: Arguments up to which spherical Bessel functions are a power series, and terms of it; above, up
-#: to their number, Gauss's rule gives them.
-SMALL, SMALL_TERMS = 0.7, 8
+#: Orders beyond those asked for from which spherical Bessel functions are recurred down.
+ORDERS_ABOVE = 16
 
 
 def modified_bessel(x: Floats) -> tuple[Floats, Floats]:
@@ -34,30 +32,46 @@ def modified_bessel(x: Floats) -> tuple[Floats, Floats]:
     >>> print([f"{float(each):.9f}" for each in modified_bessel(np.array(1.0))])
     ['0.421024438', '0.601907230']
     """
-    order_0, order_1 = np.empty(x.shape), np.empty(x.shape)
-    near = x <= NEAR
-    order_0[near], order_1[near] = _near(x[near])
-    far = x[~near]
-    place = 2 * NEAR / far - 1
-    decay = np.exp(-far) / np.sqrt(far)
-    series = _beyond()
-    order_0[~near] = decay * chebyshev.chebval(place, series[:, 0])
-    order_1[~near] = decay * chebyshev.chebval(place, series[:, 1])
+    order_0, order_1 = _of_orders(x, (0, 1))
     return order_0, order_1
 
 
-def _near(x: Floats) -> tuple[Floats, Floats]:
-    """K_0 and K_1 by their power series (eq. 9.6.13 and 9.6.11)."""
-    k = np.arange(TERMS)
-    factorials = np.array([math.factorial(each) for each in range(TERMS + 1)], dtype=np.float64)
-    harmonic = np.append(0.0, np.cumsum(1 / np.arange(1.0, TERMS + 1)))
+def modified_bessel_0(x: Floats) -> Floats:
+    """K_0 at places x > 0."""
+    return _of_orders(x, (0,))[0]
+
+
+def _of_orders(x: Floats, orders: tuple[int, ...]) -> list[Floats]:
+    """K_n at places x > 0, for some of the orders 0 and 1."""
+    found = [np.empty(x.shape) for _ in orders]
+    least = 0.0
+    for most, terms in NEAR:
+        near = (x > least) & (x <= most)
+        for values, order in zip(found, orders, strict=True):
+            values[near] = _near(x[near], terms, order)
+        least = most
+    beyond = x > least
+    far = x[beyond]
+    place = 2 * least / far - 1
+    decay, series = np.exp(-far) / np.sqrt(far), _beyond()
+    for values, order in zip(found, orders, strict=True):
+        values[beyond] = decay * chebyshev.chebval(place, series[:, order])
+    return found
+
+
+def _near(x: Floats, terms: int, order: int) -> Floats:
+    """K_0 or K_1 by their power series (eq. 9.6.13 and 9.6.11)."""
+    k = np.arange(terms)
+    factorials = np.array([math.factorial(each) for each in range(terms + 1)], dtype=np.float64)
+    harmonic = np.append(0.0, np.cumsum(1 / np.arange(1.0, terms + 1)))
     squared, logarithm = x**2 / 4, np.log(x / 2) + np.euler_gamma
-    zeroth, first = 1 / factorials[:-1] ** 2, 1 / (factorials[:-1] * factorials[1:])
-    order_0 = polynomial.polyval(squared, zeroth * harmonic[:-1])
-    order_0 -= logarithm * polynomial.polyval(squared, zeroth)
-    order_1 = polynomial.polyval(squared, first * (harmonic[k] + harmonic[k + 1]) / 2)
-    order_1 = 1 / x + x / 2 * (logarithm * polynomial.polyval(squared, first) - order_1)
-    return order_0, np.asarray(order_1)
+    if order == 0:
+        powers = 1 / factorials[:-1] ** 2
+        regular = polynomial.polyval(squared, powers * harmonic[:-1])
+        return np.asarray(regular - logarithm * polynomial.polyval(squared, powers))
+    powers = 1 / (factorials[:-1] * factorials[1:])
+    regular = polynomial.polyval(squared, powers * (harmonic[k] + harmonic[k + 1]) / 2)
+    return np.asarray(1 / x + x / 2 * (logarithm * polynomial.polyval(squared, powers) - regular))
 
 
 @lru_cache(maxsize=1)
@@ -65,7 +79,7 @@ def _beyond() -> Floats:
     """Chebyshev series of sqrt(x) e^x K_0 and K_1 in 4/x - 1; shape (terms, 2)."""
     # ∫ exp(-x (cosh t - 1)) cosh(n t) dt from 0 on (eq. 9.6.24).
     angles = np.pi * (np.arange(BEYOND) + 0.5) / BEYOND
-    x = 2 * NEAR / (1 + np.cos(angles))[:, None]
+    x = 2 * NEAR[-1][0] / (1 + np.cos(angles))[:, None]
     t = np.arange(0.0, END, STEP)
     # Of the lengths on which the integrand decays.
     scaled = 2 * np.arcsinh(t / np.sqrt(2 * x))
@@ -85,25 +99,28 @@ def spherical_bessel(count: int, x: Floats) -> Floats:
     """
     flat = x.ravel()
     found = np.empty((flat.size, count))
-    small, large = flat <= SMALL, flat >= count
-    found[small] = _small(count, flat[small])
-    found[large] = _upward(count, flat[large])
-    between = ~(small | large)
-    found[between] = _by_quadrature(count, flat[between])
+    near = flat < count
+    found[near], found[~near] = _downward(count, flat[near]), _upward(count, flat[~near])
     return found.reshape(*x.shape, count)
 
 
-def _small(count: int, x: Floats) -> Floats:
-    """The same by the power series (eq. 10.1.2)."""
-    squared, found = x**2 / 2, np.empty((x.size, count))
+def _downward(count: int, x: Floats) -> Floats:
+    """The same by recurrence from orders far above the place, where they vanish."""
+    # Of j_n (2n + 1)!!/x^n, which neither overflows nor vanishes near 0 (eq. 10.1.19), up to a
+    # factor that follows from the sum of (2n + 1) j_n² = 1 (eq. 10.1.50).
+    last, squared = count + ORDERS_ABOVE, x**2
+    found = np.empty((last + 2, x.size))
+    found[last:] = 1.0
+    for order in range(last, 0, -1):
+        share = squared / ((2 * order + 1) * (2 * order + 3))
+        found[order - 1] = found[order] - share * found[order + 1]
     power = np.ones(x.shape)
-    for order in range(count):
-        terms = np.cumprod(
-            [1.0] + [-1 / (k * (2 * (order + k) + 1)) for k in range(1, SMALL_TERMS)]
-        )
-        found[:, order] = power * polynomial.polyval(squared, terms)
-        power = power * x / (2 * order + 3)
-    return found
+    for order in range(1, last + 1):
+        power *= x / (2 * order + 1)
+        found[order] *= power
+    weights = 2 * np.arange(last + 1) + 1.0
+    size = np.sqrt(np.einsum("n,nx,nx->x", weights, found[:-1], found[:-1]))
+    return np.asarray((found[:count] / size).T)
 
 
 def _upward(count: int, x: Floats) -> Floats:
@@ -114,18 +131,3 @@ def _upward(count: int, x: Floats) -> Floats:
     for order in range(1, count - 1):
         found[order + 1] = (2 * order + 1) / x * found[order] - found[order - 1]
     return found[:count].T
-
-
-def _by_quadrature(count: int, x: Floats) -> Floats:
-    """The same as transforms of Legendre's polynomials (eq. 10.1.14)."""
-    places, weights = leggauss(count + 20 + count % 2)  # an even number: none in the middle
-    positive = places > 0
-    places, weights = places[positive], weights[positive]
-    polynomials = legvander(places, count - 1) * weights[:, None]
-    # i^-n of exp(i x t) is real for a polynomial that is even or odd.
-    signs = np.array([1.0, 1.0, -1.0, -1.0])[np.arange(count) % 4]
-    angles = np.multiply.outer(x, places)
-    found = np.empty((x.size, count))
-    found[:, ::2] = np.cos(angles) @ (polynomials * signs)[:, ::2]
-    found[:, 1::2] = np.sin(angles) @ (polynomials * signs)[:, 1::2]
-    return found
