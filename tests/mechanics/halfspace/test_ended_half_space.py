@@ -148,6 +148,22 @@ def test_between_two_free_ends_the_mirrored_pressure_displaces_the_mirror_image(
     assert domain.convolution.apply(some) == close_to(turned, rel=1e-12)
 
 
+@pytest.mark.parametrize("periodic", [False, True])
+def test_even_pressures_on_an_odd_number_of_rows_need_no_odd_part_of_the_operator(
+    periodic: bool,
+) -> None:
+    grid = Grid((15, 12), (15.0, 9.0), periodic=(False, periodic))
+    response = EndedResponse(0.3, (-5.5, 5.5), (True, True))
+    pressure = np.zeros(grid.shape)
+    pressure[2:13] = np.random.default_rng(1).random((11, 12))
+    even = pressure + pressure[::-1]
+    whole = ContactDomain(grid, response=response).convolution
+    part = ContactDomain(grid, response=response, even_rows=True).convolution
+    assert part.apply(even) == close_to(whole.apply(even), rel=1e-12)
+    odd = pressure - pressure[::-1]
+    assert np.abs(part.apply(odd) - whole.apply(odd)).max() > 1e-3 * np.abs(whole.apply(odd)).max()
+
+
 def test_half_of_an_even_pressure_between_two_free_ends_is_one_beside_a_wall() -> None:
     pressure = _pressure()
     even = pressure + pressure[::-1]

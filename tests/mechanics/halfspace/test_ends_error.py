@@ -33,6 +33,7 @@ FINER = {
         "LOWEST_WAVE": 0.04,
         "HIGHEST_WAVE": 12.0,
         "RATIO": 5.0,
+        "RATIO_ON_FACE": 5.0,
         "ON_FACE": 1e-12,
         "ON_SURFACE": 1e-11,
         "DEEPEST": 32.0,
@@ -46,7 +47,13 @@ FINER = {
         "HIGHEST": 32.0,
         "NEGLECTED": 1e-10,
     },
-    end_correction: {"HIGHEST": 32.0, "NEGLECTED": 1e-12, "FIRST_WAVE": 1e-5},
+    end_correction: {
+        "HIGHEST": 32.0,
+        "NEGLECTED": 1e-12,
+        "FIRST_WAVE": 1e-5,
+        "NEAREST": 1e-6,
+        "RATIO": 3.0,
+    },
     strip_basis: {"HIGHEST": 32.0, "NEGLECTED": 1e-13, "FIRST_WAVE": 1e-5},
 }
 
@@ -73,7 +80,9 @@ def _refine(patch: pytest.MonkeyPatch) -> None:
 def _forget() -> None:
     kept = (strip.surface_panels, strip.face_of_strips, strip._parts_of, strip.strip_table)
     others = (free_end.images, free_end.end_functions, plane_strip.plane_strip)
-    for function in (*kept, *others, ended_half_space._kept_rows, ended_half_space._kept_period):
+    basis = strip_basis._of_short_waves
+    rows = (ended_half_space._kept_rows, ended_half_space._kept_period)
+    for function in (*kept, *others, basis, *rows):
         function.cache_clear()
 
 

@@ -32,12 +32,15 @@ ALONG, FIRST = 3, 0.05
 #: Decay of the shortest waves at the first depth, in powers of e.
 DECAYED = 11.0
 
+#: Decay from which on waves do not count, likewise.
+GONE = 16.0
+
 #: Waves across the face of a body that goes on: nodes of panels, first panel, and length of panels,
 #: both over the inverse of the body's length on the grid.
-ACROSS, FIRST_ACROSS, TURNS = 8, 1e-3, 9.0
+ACROSS, FIRST_ACROSS, TURNS = 8, 1e-3, 12.0
 
 #: First place of panels of the surface, in cells, and ratio of the ends of a panel.
-NEAREST, RATIO = 1e-6, 6.0
+NEAREST, RATIO = 1e-6, 16.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,13 +61,23 @@ class Waves:
     of_nodes: Floats  # weights of ∫ f cos κx dx, shape (waves, nodes) [m]
     panels: LogPanels = field(repr=False)  # of the distance from the face [m], or in W
 
-    def stress(self, ratio: float, amplitudes: Floats, wave: float, depths: Floats) -> Floats:
-        """Stress on the face by waves cos k y of these amplitudes [Pa m], at depths [m]."""
-        square = self.across**2 + wave**2
+    def stress(self, ratio: float, amplitudes: Floats, waves: Floats, depths: Floats) -> Floats:
+        """Stress on the face by waves cos k y, of ascending k, at depths [m]; (k, depths).
+
+        Amplitudes are [Pa m], shape (k, waves across).
+        """
+        square = self.across**2 + waves[:, None] ** 2
         rate, part = np.sqrt(square), self.across**2 / square
-        decay = np.multiply.outer(depths, rate)
-        own = part * (1 - decay) + 2 * ratio * (1 - part)
-        return np.asarray((np.exp(-decay) * own) @ (self.weights * amplitudes))
+        own, weighted = part + 2 * ratio * (1 - part), self.weights * amplitudes
+        found = np.zeros((len(waves), len(depths)))
+        for into, depth in zip(found.T, depths.tolist(), strict=True):
+            # Shorter waves are gone at this depth.
+            along, across = (np.searchsorted(each, GONE / depth) for each in (waves, self.across))
+            kept = slice(along), slice(across)
+            decay = rate[kept] * depth
+            left = np.exp(-decay) * (own[kept] - part[kept] * decay)
+            into[:along] = np.einsum("ka,ka->k", left, weighted[kept])
+        return found
 
 
 def stress_left(response: EndedResponse, pressure: Floats, grid: Grid) -> float:
@@ -162,17 +175,14 @@ def _beside_one_end(
     known = halfspace.free_end.images(ratio)
     across = _waves_across_one_end(face.distances.tobytes(), float(waves.min()), float(depths[0]))
     end = float(np.exp(known.panels.edges[-1])) * (1 - 1e-12)
-    left = np.empty((len(waves), len(depths)))
-    for index, (wave, own) in enumerate(zip(waves.tolist(), loads, strict=True)):
-        places = np.minimum(wave * face.distances, end)
-        masses = own @ np.diff(known.panels.weights_until(places), axis=0)
-        added = known.density @ masses
-        freed = 2 * known.stress.T @ (masses + known.panels.weights * added)
-        beyond = values_at(known.panels, added, wave * across.panels.places)
-        amplitudes = across.of_rows @ own + across.of_nodes @ beyond
-        stress = across.stress(ratio, amplitudes, wave, depths)
-        left[index] = stress - values_at(known.panels, freed, wave * depths)
-    return left
+    places = np.minimum(np.multiply.outer(waves, face.distances), end)
+    masses = known.panels.weights_of_steps(places, loads)
+    added = masses @ known.density.T
+    freed = 2 * (masses + known.panels.weights * added) @ known.stress
+    beyond = values_at(known.panels, added, np.multiply.outer(waves, across.panels.places))
+    amplitudes = loads @ across.of_rows.T + beyond @ across.of_nodes.T
+    stress = across.stress(ratio, amplitudes, waves, depths)
+    return stress - values_at(known.panels, freed, np.multiply.outer(waves, depths))
 
 
 @lru_cache(maxsize=1)  # of both ends, where the grid is as long beyond the one as beyond the other
@@ -213,24 +223,24 @@ def _between(
     of_nodes = half * halfspace.strip.cosine_transform(table.panels, turns)
     summed = Waves(across, weights, of_rows, of_nodes, table.panels)
     masses = loads @ np.diff(table.panels.weights_until(distances / half), axis=0)
-    left = np.empty((len(waves), len(depths)))
-    for index, (wave, own) in enumerate(zip(waves.tolist(), masses, strict=True)):
-        powers = table.chebyshev(wave * half)
-        freed, sent = (
-            np.tensordot(powers, each, axes=1) @ (wave * half * own)
-            for each in (table.faces, table.tops)
-        )
-        amplitudes = summed.of_rows @ loads[index] + summed.of_nodes @ sent
-        stress = summed.stress(ratio, amplitudes, wave, depths)
-        left[index] = stress - values_at(table.face_panels, freed, wave * depths)
-    return left
+    powers, scaled = table.chebyshev(waves * half), (waves * half)[:, None] * masses
+    freed, sent = (
+        np.einsum("kt,tnk->kn", powers, each @ scaled.T) for each in (table.faces, table.tops)
+    )
+    amplitudes = loads @ summed.of_rows.T + sent @ summed.of_nodes.T
+    stress = summed.stress(ratio, amplitudes, waves, depths)
+    return stress - values_at(table.face_panels, freed, np.multiply.outer(waves, depths))
 
 
 def values_at(panels: LogPanels, values: Floats, places: Floats) -> Floats:
-    """Values at places, of those at the nodes of panels; before them as at the first, beyond 0."""
+    """Values at places, of those at the nodes of panels; before them as at the first, beyond 0.
+
+    Each line has places of its own, shape (lines, places).
+    """
     logarithms, edges = np.log(places), panels.edges
     panel = np.clip(np.searchsorted(edges, logarithms) - 1, 0, len(edges) - 2)
     inside = np.clip(2 * (logarithms - edges[panel]) / np.diff(edges)[panel] - 1, -1.0, 1.0)
-    nodes = values.reshape(len(edges) - 1, -1)[panel]
-    found = np.einsum("pn,pn->p", interpolation(inside), nodes)
+    lines = np.arange(len(values))[:, None]
+    nodes = values.reshape(len(values), len(edges) - 1, -1)[lines, panel]
+    found = np.einsum("lpn,lpn->lp", interpolation(inside), nodes)
     return np.where(logarithms <= edges[-1], found, 0.0)

@@ -30,21 +30,18 @@ from viscontact.backend.transforms import (
 from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
 from viscontact.mechanics.halfspace.free_end import (
     HIGHEST,
-    EndFunctions,
     end_functions,
     pivoted_cholesky,
 )
+from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance, moving_influence_table
 
 #: Gauss nodes in each panel of wave numbers, which end at powers of two; the first panel begins at
 #: this part of the inverse of the block's extent.
 NODES, FIRST_WAVE = 8, 1e-3
 
-#: Cells at the end in which means are exact; beyond, two Gauss points give them.
-EXACT_CELLS = 8
-
-#: Places at which functions are found together.
-TOGETHER = 4000
+#: First place of panels of the distance from the end, in rows, and ratio of the ends of a panel.
+NEAREST, RATIO = 1e-3, 6.0
 
 #: Largest entry of G that a basis may leave out, relative to the largest one.
 NEGLECTED = 1e-8
@@ -154,31 +151,32 @@ def end_basis(
     waves, weights = panel_nodes(borders, NODES)
     # Waves before the first panel go as a - b ln k, whose mean is that at lowest/e.
     waves, weights = np.append(lowest / math.e, waves), np.append(lowest, weights)
-    means = row_means(functions, waves * edge, rows)
-    scaled = np.sqrt(weights)[:, None, None] * means
-    flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
-    diagonal = np.einsum("rk,rk->r", flat, flat)
-    factors, _ = pivoted_cholesky(diagonal, lambda row: flat @ flat[row], NEGLECTED)
+    panels, means = panels_of_rows(rows)
+    at_nodes = functions.at(np.multiply.outer(waves * edge, panels.places))
+    # All waves add up at y = 0, where the largest entries are left out.
+    total = summed_squares(weights, at_nodes) @ means.T
+    diagonal = np.einsum("rn,nr->r", means, total)
+    factors, _ = pivoted_cholesky(diagonal, lambda row: means @ total[:, row], NEGLECTED)
     basis = np.linalg.qr(factors)[0]
-    projected = basis.T @ means
+    projected = (basis.T @ means) @ at_nodes
     return EndBasis(basis, borders, edge * (projected @ projected.swapaxes(1, 2)))
 
 
-def row_means(functions: EndFunctions, edges: Floats, rows: range) -> Floats:
-    """Means of φ_m over rows of lengths k dx, for some k; shape (k, rows, m)."""
-    begin = np.arange(rows.start, rows.stop, dtype=np.float64)
-    exact = max(0, min(EXACT_CELLS - rows.start, len(rows)))
-    ends = np.append(begin[:exact], begin[exact - 1 : exact] + 1)
-    found = []
-    for part in np.array_split(edges, math.ceil(len(edges) * len(rows) / TOGETHER)):
-        places = (np.multiply.outer(part, begin + 0.5 + side / 12**0.5) for side in (-1, 1))
-        before, after = (functions.at(place) for place in places)
-        means = (before + after) / 2
-        if exact:
-            whole = functions.integral_until(np.multiply.outer(part, ends))
-            means[:, :exact] = np.diff(whole, axis=1) / part[:, None, None]
-        found.append(means)
-    return np.concatenate(found)
+def panels_of_rows(rows: range) -> tuple[LogPanels, Floats]:
+    """Panels of the distance from the end, in rows, and weights of means over rows at their nodes.
+
+    The weights have the shape (rows, nodes).
+    """
+    panels = LogPanels.over(NEAREST, float(rows.stop), RATIO)
+    borders = np.arange(rows.start, rows.stop + 1, dtype=np.float64)
+    return panels, np.diff(panels.weights_until(borders), axis=0)
+
+
+def summed_squares(weights: Floats, functions: Floats) -> Floats:
+    """Sum over wave numbers of φ φ' between nodes, of shape (wave numbers, nodes, functions)."""
+    scaled = np.sqrt(weights)[:, None, None] * functions
+    flat = np.moveaxis(scaled, 1, 0).reshape(functions.shape[1], -1)
+    return np.asarray(flat @ flat.T)
 
 
 class EndCorrection:

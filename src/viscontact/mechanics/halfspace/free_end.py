@@ -27,16 +27,19 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.halfspace.bessel_functions import modified_bessel
+from viscontact.mechanics.halfspace.bessel_functions import modified_bessel, modified_bessel_0
 from viscontact.mechanics.halfspace.cubic_curves import CubicCurves
 from viscontact.mechanics.halfspace.log_panels import NODES, LogPanels
 
 #: First and last place of the panels, and ratio of the ends of a panel. What a load sends nearer
 #: to the corner than the first place is left out: a part LOWEST / X of the load.
-LOWEST, HIGHEST, RATIO = 1e-13, 25.0, 4.0
+LOWEST, HIGHEST, RATIO = 1e-13, 25.0, 8.0
 
 #: Panels nearer to the corner than this are not tabulated; nearer places count as this.
 NEAREST = 1e-7
+
+#: Parts of a panel on which functions are cubics.
+PARTS = 16
 
 #: Largest entry of g that its products may leave out, relative to the largest one.
 NEGLECTED = 3e-8
@@ -50,21 +53,14 @@ class EndFunctions:
     neglected: float  # largest entry left out of g, over the largest entry [-]
     asymmetry: float  # |g(X, X') - g(X', X)| before it is made symmetric, likewise [-]
     _values: CubicCurves  # of ln X
-    _means: CubicCurves  # of ln X: mean of φ from 0 to X
     _nearest: float
 
     def at(self, place: Floats) -> Floats:
         """φ_m at places X >= 0, shape (..., m); zero far from the end."""
-        found = np.zeros((*place.shape, self._values.count))
+        found = np.zeros((*place.shape, self._values.coefficients.shape[-1]))
         near = place < HIGHEST
         found[near] = self._values(np.log(np.maximum(place[near], self._nearest)))
         return found
-
-    def integral_until(self, place: Floats) -> Floats:
-        """∫ φ_m dX from the end to places X >= 0, shape (..., m)."""
-        inside = np.clip(place, self._nearest, HIGHEST)
-        lengths = np.minimum(place, HIGHEST)
-        return np.asarray(self._means(np.log(inside)) * lengths[..., None])
 
 
 @lru_cache(maxsize=8)
@@ -86,16 +82,12 @@ def end_functions(poisson_ratio: float) -> EndFunctions:
     # The load that is farther from the corner feels less of what is left out there.
     g = np.triu(raw) + np.triu(raw, 1).T
     factors, left = pivoted_cholesky(np.diagonal(g).copy(), lambda k: g[:, k], NEGLECTED)
-    # Nearer than the first node φ counts as constant.
-    before = factors[0] * np.exp(near.edges[0])
-    means = (near.integrals_until(factors) + before) / near.places[:, None]
     return EndFunctions(
         poisson_ratio,
         left / float(g.max()),
         float(np.abs(raw - raw.T).max() / g.max()),
-        CubicCurves.through(near.logarithms, factors),
-        CubicCurves.through(near.logarithms, means),
-        float(near.places[0]),
+        CubicCurves.on_panels(near, factors, PARTS),
+        float(np.exp(near.edges[0])),
     )
 
 
@@ -152,8 +144,8 @@ def _of_both_sides(places: Floats) -> tuple[Floats, Floats]:
 
 def _displacement(panels: LogPanels) -> Floats:
     """Displacement at the nodes of the mirrored half-space under a density at the nodes."""
-    image = _of_both_sides(panels.places[:, None] + panels.places)[0] * panels.weights
-    own = panels.weights_of_logarithm(lambda distance: modified_bessel(distance)[0])
+    image = modified_bessel_0(panels.places[:, None] + panels.places) * panels.weights
+    own = panels.weights_of_logarithm(modified_bessel_0)
     return np.asarray(2 / np.pi * (own + image))
 
 

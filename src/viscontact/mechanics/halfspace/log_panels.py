@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss, legvander
+from numpy.polynomial.legendre import legder, leggauss, legvander
 
 from viscontact.backend.arrays import Floats, Integers
 from viscontact.backend.lazy_dataclass import dataclass
@@ -62,9 +62,9 @@ class LogPanels:
         """∫ f dX from the first edge to each node, of values at the nodes, shape (nodes, ...)."""
         panels = (values.T * self.places).T.reshape(len(self.edges) - 1, NODES, -1)
         half = np.diff(self.edges)[:, None, None] / 2
-        whole = np.einsum("n,pnk->pk", _W, panels) * half[:, 0]
+        whole = (_W @ panels) * half[:, 0]
         before = np.concatenate([np.zeros_like(whole[:1]), np.cumsum(whole, axis=0)[:-1]])
-        inside = np.einsum("mn,pnk->pmk", _PARTIAL, panels) * half
+        inside = (_PARTIAL @ panels) * half
         return np.asarray((before[:, None] + inside).reshape(values.shape))
 
     def weights_until(self, ends: Floats) -> Floats:
@@ -72,6 +72,35 @@ class LogPanels:
 
         Nearer than the first panel f counts as at the first node.
         """
+        panel, last = self._last_panel(ends)
+        found = np.where(np.arange(len(self.places)) < panel[:, None] * NODES, self.weights, 0.0)
+        columns = panel[:, None] * NODES + np.arange(NODES)
+        found[np.arange(len(ends))[:, None], columns] = last
+        found[:, 0] += np.minimum(ends, np.exp(self.edges[0]))
+        return np.asarray(found)
+
+    def weights_of_steps(self, borders: Floats, steps: Floats) -> Floats:
+        """Weights of ∫ f s dX, of s that is constant between borders; shape (lines, nodes).
+
+        Each line has borders of its own within the panels, shape (lines, steps + 1).
+        """
+        # A sum over the borders of what s falls by there times the weights until there.
+        falls = -np.diff(steps, axis=1, prepend=0.0, append=0.0).ravel()
+        panel, last = self._last_panel(borders.ravel())
+        lines, count = len(borders), len(self.edges) - 1
+        place = np.repeat(np.arange(lines) * count, borders.shape[1]) + panel
+        size = lines * count
+        ending = np.bincount(place, falls, size).reshape(lines, count)
+        beyond = np.cumsum(ending[:, ::-1], axis=1)[:, ::-1] - ending
+        found = beyond[..., None] * self.weights.reshape(count, NODES)
+        for node, weights in enumerate((last * falls[:, None]).T):
+            found[..., node] += np.bincount(place, weights, size).reshape(lines, count)
+        before = np.minimum(borders, np.exp(self.edges[0]))
+        found[:, 0, 0] += np.einsum("lb,lb->l", falls.reshape(borders.shape), before)
+        return np.asarray(found.reshape(lines, -1))
+
+    def _last_panel(self, ends: Floats) -> tuple[Integers, Floats]:
+        """Panels in which ends lie, and weights of ∫ f dX over the parts of these up to there."""
         logarithms = np.log(np.maximum(ends, np.exp(self.edges[0])))
         panel = np.searchsorted(self.edges, logarithms, side="left") - 1
         panel = np.clip(panel, 0, len(self.edges) - 2)
@@ -79,12 +108,7 @@ class LogPanels:
         parts = (logarithms - begin)[:, None] / 2 * (_T + 1)
         weights = (logarithms - begin)[:, None] / 2 * _W * np.exp(begin[:, None] + parts)
         inside = interpolation(2 * parts / length[:, None] - 1)
-        found = np.where(np.arange(len(self.places)) < panel[:, None] * NODES, self.weights, 0.0)
-        columns = panel[:, None] * NODES + np.arange(NODES)
-        rows = np.arange(len(ends))[:, None]
-        found[rows, columns] = np.einsum("eq,eqn->en", weights, inside)
-        found[:, 0] += np.minimum(ends, np.exp(self.edges[0]))
-        return np.asarray(found)
+        return panel, np.einsum("eq,eqn->en", weights, inside)
 
     def weights_of_logarithm(self, kernel: Callable[[Floats], Floats]) -> Floats:
         """Weights of ∫ k(|X - X'|) f(X') dX' at the nodes X, for a kernel with a logarithm at 0."""
@@ -126,6 +150,11 @@ class LogPanels:
 def interpolation(places: Floats) -> Floats:
     """Values at places from -1 to 1 in a panel, of values at its nodes; shape (..., nodes)."""
     return np.asarray(legvander(places, NODES - 1) @ _COEFFICIENTS)
+
+
+def slopes(places: Floats) -> Floats:
+    """Slopes at places from -1 to 1 in a panel, of values at its nodes; shape (..., nodes)."""
+    return np.asarray(legvander(places, NODES - 2) @ legder(_COEFFICIENTS))
 
 
 def _partial_integrals() -> Floats:

@@ -36,23 +36,25 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.halfspace.bessel_functions import modified_bessel
-from viscontact.mechanics.halfspace.filon import oscillation_weights, panel_nodes
+from viscontact.mechanics.halfspace.filon import cosine_weights, panel_nodes
 from viscontact.mechanics.halfspace.log_chebyshev import LogChebyshev
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
 from viscontact.mechanics.halfspace.strip_slab import slab
 
 #: Range of k W in which faces act on each other and G is tabulated, and number of the places in it,
 #: Chebyshev's in ln k W. Above, each face is the end of a body that goes on.
-LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 20
+LOWEST_WAVE, HIGHEST_WAVE, WAVES = 0.08, 8.0, 18
 SERIES = LogChebyshev(LOWEST_WAVE, HIGHEST_WAVE, WAVES)
 
 #: Lowest k W at which loads on the faces are solved, even and odd ones, which grow as 1/(k W), with
 #: the error of the kernels (`long_strip`).
 LONGEST_WAVES = 0.002, 0.02
 
-#: First place on the faces, in 1/k, and on the surface, in W; ratio of the ends of panels; last
-#: place on the faces, in 1/k.
-ON_FACE, ON_SURFACE, RATIO, DEEPEST = 1e-10, 1e-9, 8.0, 25.0
+#: First and last place on the faces, in 1/k, and ratio of the ends of panels.
+ON_FACE, DEEPEST, RATIO_ON_FACE = 2e-10, 25.0, 9.5
+
+#: First place on the surface, in W, and ratio of the ends of panels.
+ON_SURFACE, RATIO = 1e-9, 13.5
 
 #: Nodes of panels of ζ; first panel, ratio and end of those of images, and of those of C.
 NODES = 10
@@ -95,14 +97,13 @@ class StripTable:
             powers[long] = polynomial_weights(known, waves[long]) @ through
         return np.column_stack([powers, 1 / waves])
 
-    def chebyshev(self, wave: float) -> Floats:
-        """Weights of the coefficients of `faces` and `tops` at w = k W."""
-        inside = min(max(wave, LOWEST_WAVE), HIGHEST_WAVE)
-        return np.asarray(SERIES.powers(np.array([inside]))[0])
+    def chebyshev(self, waves: Floats) -> Floats:
+        """Weights of the coefficients of `faces` and `tops` at w = k W, shape (waves, terms)."""
+        return SERIES.powers(np.clip(waves, LOWEST_WAVE, HIGHEST_WAVE))
 
     def loads(self, wave: float) -> tuple[Floats, Floats]:
         """Matrices of the load on the faces and of the stress by it above, at w = k W."""
-        powers = self.chebyshev(wave)
+        powers = self.chebyshev(np.array([wave]))[0]
         return np.tensordot(powers, self.faces, axes=1), np.tensordot(powers, self.tops, axes=1)
 
     @property
@@ -146,12 +147,13 @@ def strip_table(poisson_ratio: float, *, odd: bool) -> StripTable:
     raw = np.array([wave * added for wave, (added, _, _) in zip(waves, parts, strict=True)])
     limit = _plate(poisson_ratio, panels.places, odd=odd)
     # The load that is farther from the face feels less of what is left out there.
-    kept = np.triu(raw) + np.triu(raw, 1).swapaxes(1, 2) - limit
-    coefficients = SERIES.coefficients(kept)
-    known = panels.places > SHORTEST
-    skew = np.abs(raw - raw.swapaxes(1, 2))[:, known][:, :, known].max()
-    tail = np.abs(coefficients[-2:])[:, known][:, :, known].sum(axis=0).max()
-    largest = np.abs(raw).max()
+    farther = np.tri(len(panels.places), dtype=bool).T
+    coefficients = SERIES.coefficients(np.where(farther, raw, raw.swapaxes(1, 2)) - limit)
+    known = slice(int(np.searchsorted(panels.places, SHORTEST, side="right")), None)
+    within = raw[:, known, known]
+    skew = np.abs(within - within.swapaxes(1, 2)).max()
+    tail = np.abs(coefficients[-2:, known, known]).sum(axis=0).max()
+    largest = max(raw.max(), -raw.min())
     freed, sent = (SERIES.coefficients(np.array([part[k] for part in parts])) for k in (1, 2))
     error = float((skew + tail) / largest)
     return StripTable(panels, coefficients, limit, error, freed, sent, face_of_strips().panels)
@@ -285,15 +287,15 @@ def surface_panels() -> LogPanels:
 @lru_cache(maxsize=1)
 def face_of_strips() -> Face:
     """Places on the faces, and their transforms."""
-    panels = LogPanels.over(ON_FACE, DEEPEST, RATIO)
+    panels = LogPanels.over(ON_FACE, DEEPEST, RATIO_ON_FACE)
     borders = _borders(OF_IMAGES[0], OF_IMAGES[1] / LONGEST_WAVES[0], IMAGE_RATIO)
-    waves = oscillation_weights(borders, NODES, panels.places)
+    waves = cosine_weights(borders, NODES, panels.places)
     of_faces = _borders(OF_FACES[0], OF_FACES[1] / ON_FACE, FACE_RATIO)
     zeta, weights = panel_nodes(of_faces, NODES)
     return Face(
         panels,
         panel_nodes(borders, NODES)[0],
-        waves.real.copy(),
+        waves,
         zeta,
         weights,
         cosine_transform(panels, zeta),
@@ -308,10 +310,12 @@ def _borders(first: float, last: float, ratio: float) -> Floats:
 
 def cosine_transform(panels: LogPanels, zeta: Floats) -> Floats:
     """Weights of ∫ f cos(ζZ) dZ at the nodes of panels of ln Z; shape (waves, nodes)."""
-    blocks = []
-    for begin, end in zip(panels.edges[:-1], panels.edges[1:], strict=True):
-        borders = np.exp(np.linspace(begin, end, PARTS + 1))
-        places = np.log(panel_nodes(borders, NODES)[0])
-        weights = oscillation_weights(borders, NODES, zeta).real
-        blocks.append(weights @ interpolation((2 * places - begin - end) / (end - begin)))
-    return np.hstack(blocks)
+    # Panels are of one length, so that parts lie alike in all of them.
+    begin, end = panels.edges[:2]
+    places = np.log(panel_nodes(np.exp(np.linspace(begin, end, PARTS + 1)), NODES)[0])
+    inside = interpolation((2 * places - begin - end) / (end - begin))
+    count = len(panels.edges) - 1
+    borders = np.exp(np.linspace(begin, panels.edges[-1], PARTS * count + 1))
+    weights = cosine_weights(borders, NODES, zeta)
+    found = weights.reshape(len(zeta), count, -1) @ inside
+    return np.asarray(found.reshape(len(zeta), -1))

@@ -11,6 +11,7 @@ where the distance D is free, as the body has no datum.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +20,13 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
-from viscontact.mechanics.halfspace.end_correction import FIRST_WAVE, NODES, EndBasis, row_means
+from viscontact.mechanics.halfspace.end_correction import (
+    FIRST_WAVE,
+    NODES,
+    EndBasis,
+    panels_of_rows,
+    summed_squares,
+)
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.free_end import HIGHEST, end_functions, pivoted_cholesky
 from viscontact.mechanics.halfspace.log_panels import LogPanels
@@ -134,18 +141,16 @@ def strip_basis(
     long = waves < highest
     of_table = table.weights(waves[long] * half_length)
     near = range(int(distance.min()), int(distance.max()) + 1)
-    functions, order = end_functions(poisson_ratio), distance.astype(int) - near.start
-    short = signs * row_means(functions, waves[~long] * cell_size[0], near)[:, order]
+    at_ends, short = _of_short_waves(poisson_ratio, near, (waves[~long] * cell_size[0]).tobytes())
+    at_ends = signs * at_ends[distance.astype(int) - near.start]
     # All waves add up at y = 0, where the largest entries are left out.
     total = means @ np.tensordot(measures[long] @ of_table, table.entries, axes=1) @ means.T
-    scaled = np.sqrt(measures[~long])[:, None, None] * short
-    flat = np.moveaxis(scaled, 1, 0).reshape(len(rows), -1)
-    total += flat @ flat.T
+    total += at_ends @ summed_squares(measures[~long], short) @ at_ends.T
     factors, _ = pivoted_cholesky(total.diagonal().copy(), lambda k: total[:, k], NEGLECTED)
     basis = np.linalg.qr(factors)[0]
-    on_nodes, at_ends = basis.T @ means, basis.T @ short
+    on_nodes, projected = basis.T @ means, (basis.T @ at_ends) @ short
     entries = on_nodes @ table.entries @ on_nodes.T
-    products = [np.tensordot(of_table, entries, axes=1), at_ends @ at_ends.swapaxes(1, 2)]
+    products = [np.tensordot(of_table, entries, axes=1), projected @ projected.swapaxes(1, 2)]
     over_length = waves * half_length
     left_out = np.multiply.outer(np.exp(-over_length) / over_length, entries[-1])
     # An even pressure is half of the sum of the pressures in both halves of the body.
@@ -158,6 +163,17 @@ def strip_basis(
         half_length,
         float(np.hypot(half_length, width)),
     )
+
+
+@lru_cache(maxsize=1)  # even and odd pressures share them
+def _of_short_waves(poisson_ratio: float, rows: range, waves: bytes) -> tuple[Floats, Floats]:
+    """Weights of means over rows beside one end, and its functions at their nodes.
+
+    Wave numbers count over the inverse of a row, as they are in memory.
+    """
+    panels, means = panels_of_rows(rows)
+    places = np.multiply.outer(np.frombuffer(waves), panels.places)
+    return means, end_functions(poisson_ratio).at(places)
 
 
 def _table_of(
