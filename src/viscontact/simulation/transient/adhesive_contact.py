@@ -21,7 +21,7 @@ from viscontact.mechanics.contact.adhesion.equilibrium import (
     traction_at,
 )
 from viscontact.mechanics.contact.adhesion.problem import AdhesiveProblem, AdhesiveSolution
-from viscontact.mechanics.contact.adhesion.stability import stability
+from viscontact.mechanics.contact.adhesion.stability import ReturnedChange, stability
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.state import Outcome
@@ -91,7 +91,7 @@ class AdhesiveContact:
         self._traction: Floats | None = None
         self._force = self._attraction = self._largest_pull = 0.0
         self._touches = False
-        self._returned: Guess | None = None  # the change whose factor is the stability
+        self._returned: ReturnedChange | None = None  # the change whose factor is the stability
         touching = open_gap - open_gap.min()
         #: Force of the undeformed bodies where they touch [N].
         self._at_touch = self._sum(law.traction(touching, np.zeros(touching.shape)))
@@ -160,7 +160,7 @@ class AdhesiveContact:
         self._attraction = restart_data["attraction"]
         self._largest_pull = restart_data["largest_pull"]
         self._touches, returned = restart_data["touches"], restart_data["returned"]
-        self._returned = returned and Guess(**returned)
+        self._returned = returned and ReturnedChange(**returned)
 
     def map_fields(self, enlargement: GridEnlargement) -> None:
         """Continue on a larger grid."""

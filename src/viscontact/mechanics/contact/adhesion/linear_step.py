@@ -6,6 +6,8 @@ is of the second kind; a multiple of the planes' images makes every direction ke
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats, Singles
@@ -25,10 +27,6 @@ MAX_VECTORS = 40
 #: Spare fields of a patch that are used within one image.
 SPARE = 2
 
-#: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
-#: the largest residual.
-INNER_TOLERANCE = 3.0
-
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
 
@@ -37,7 +35,8 @@ class LinearStep:
     """Linear equations of one Newton step on a patch, of all cells: those left alone keep p."""
 
     # Fields, not lists of cells: mostly all of a patch are attracted, and to pick them out takes
-    # longer than to compute with the others.
+    # longer than to compute with the others. Equations in contact are weighed, so that residuals
+    # of all equations at the tolerance are alike.
 
     def __init__(
         self,
@@ -47,11 +46,11 @@ class LinearStep:
         cells: tuple[Bools, Bools],
         checked: AdhesiveResidual,
         lacking: Floats,
-        goal: float,
+        scales: tuple[float, float],
     ) -> None:
-        """Take the cells in contact and those attracted, the residual, and where to end [Pa]."""
+        """Take the cells in contact and those attracted, the residual, and its units [Pa, m]."""
         contact, pulled = cells
-        self._patch, self._goal, self.convolutions = patch, goal, 0
+        self._patch, self.convolutions = patch, 0
         along_x, along_y = domain.periodic
         whole_x, whole_y = (a == b for a, b in zip(patch.shape, domain.shape, strict=True))
         self._periodic = along_x and whole_x, along_y and whole_y
@@ -62,9 +61,14 @@ class LinearStep:
         self._contact = np.flatnonzero(contact)
         slope = np.where(pulled, compliance * checked.attraction.slope, 0.0).astype(np.float32)
         self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
+        self._scale, displacement = scales
+        #: Weight of a gap per unit compliance in equations in contact [1/m].
+        self._weight = self._scale * compliance / displacement
+        if problem.law.is_abrupt:  # its front crosses a cell under errors of a contact beside it
+            self._weight = 1 / spacing
         #: Factor of a change of the gap, per unit compliance, in each equation [1/m].
         self._of_gap = slope.copy()
-        self._of_gap.ravel()[self._contact] = 1 / spacing
+        self._of_gap.ravel()[self._contact] = self._weight
         self._open = np.ones(patch.shape, np.float32)
         self._open.ravel()[self._contact] = 0.0
         self._closed = 1 - self._open
@@ -77,7 +81,6 @@ class LinearStep:
         self._across = [
             np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
         ]
-        self._spacing = np.float32(spacing)
         self._lacking = lacking / patch.cell_area
         if self._free.any():
             self._balance(problem.spring / patch.cell_area)
@@ -122,18 +125,18 @@ class LinearStep:
         )
         cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
         lacking = problem.lacking(iterate, domain)
-        goal = INNER_TOLERANCE * tolerance * scale
-        return cls(problem, domain, patch, cells, cut, lacking, goal)
+        displacement = problem.displacement(iterate, math.sqrt(patch.cell_area))
+        return cls(problem, domain, patch, cells, cut, lacking, (scale, displacement))
 
-    def solve(self, iterate: Guess, reduction: float, goal: float | None = None) -> Floats:
+    def solve(self, iterate: Guess, reduction: float, tolerance: float) -> Floats:
         """Add the change to the pressure of an iterate; return its motion.
 
-        Ends where the residual is reduced by a factor, or to a norm [Pa], by default the search's.
-        On the whole grid the displacement follows, in the precision of the search.
+        Ends where the residual is reduced by a factor, or to a norm of so many strengths. On the
+        whole grid the displacement follows, in the precision of the search.
         """
         here, everywhere = self._patch.cut(iterate.pressure), iterate.unit_displacement
         right = np.where(self._pulled, -(here + self._traction), 0.0).astype(np.float32)
-        gap = self._gap.ravel()[self._contact] / (self._compliance * float(self._spacing))
+        gap = self._gap.ravel()[self._contact] * (self._weight / self._compliance)
         right.ravel()[self._contact] = -gap
         taken: list[tuple[Singles, Singles, Floats]] = []
         spare = self._patch.operators.spare
@@ -147,13 +150,15 @@ class LinearStep:
             self._image(*taken[-1], found)
             return found.ravel()
 
-        left = image(right, self._lacking)
-        np.subtract(right.ravel(), left, out=left)
-        goal = max(reduction * norm(right.ravel()), self._goal if goal is None else goal)
+        left, weights = right.ravel(), []
+        goal = max(reduction * norm(left), tolerance * self._scale)
+        if self._lacking.any():
+            left, weights = left - image(right, self._lacking), [1.0]
         factors, _ = gmres(lambda vector: image(vector, np.zeros(3)), left, goal, MAX_VECTORS)
-        motion, (change, lifted, moved) = iterate.motion, taken[0]
-        motion, part = motion + moved, spare(0)
-        for factor, (other, raised, moved) in zip(factors, taken[1:], strict=True):
+
+        motion, part = iterate.motion, spare(0)
+        change, lifted = np.zeros((2, *right.shape), np.float32)
+        for factor, (other, raised, moved) in zip([*weights, *factors], taken, strict=True):
             change += np.multiply(other, np.float32(factor), out=part)
             motion = motion + factor * moved
             if self.is_whole:
@@ -192,7 +197,7 @@ class LinearStep:
         np.multiply(vector, self._softened, out=into)
         if self._contact.size:
             field = np.multiply(vector, self._closed, out=self._patch.operators.spare(0))
-            field *= self._spacing
+            field *= np.float32(1 / self._weight)
             self._patch.preconditioner.apply(field, into=field)
             field *= self._closed
             into += field

@@ -33,8 +33,12 @@ from viscontact.mechanics.contact.problem import Guess
 MAX_STEPS = 20
 
 #: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
-#: change, and from a residual of so many strengths on.
-REDUCTION_AFAR, REDUCTION, NEAR = 1e-1, 1e-3, 1e-2
+#: change, and from a residual of so many strengths on; of a law that ends abruptly, far from it.
+REDUCTION_AFAR, REDUCTION, NEAR, REDUCTION_ABRUPT = 7e-2, 1e-3, 1e-2, 1e-1
+
+#: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
+#: the largest residual.
+INNER_TOLERANCE = 1.0
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
@@ -78,7 +82,7 @@ def newton_search(
     predicted = float(checked.attraction.traction.sum())
     is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
     largest = 0.0
-    sets = CycleOfSets()
+    sets, afar = CycleOfSets(), REDUCTION_ABRUPT if problem.law.is_abrupt else REDUCTION_AFAR
     for step in range(max_steps + 1):
         if is_guess and (checked.error <= tolerance or step == max_steps):
             domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
@@ -92,8 +96,8 @@ def newton_search(
         if converged or diverges or step == max_steps or sets.repeats(checked):
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
-        reduction = REDUCTION if checked.error <= NEAR else REDUCTION_AFAR
-        motion = system.solve(iterate, reduction)
+        reduction = REDUCTION if checked.error <= NEAR else afar
+        motion = system.solve(iterate, reduction, INNER_TOLERANCE * tolerance)
         iterate, is_guess = Guess(iterate.values, motion), system.is_whole
         if not is_guess:
             domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)

@@ -32,38 +32,54 @@ from viscontact.mechanics.contact.rigid_balance import Constraints
 
 #: Vectors of the Rayleigh-Ritz method for a law that decreases, and for one that rises first; each
 #: costs the solution of a linear system. Under a law that decreases they leave an error below a
-#: percent of spheres; on a rough surface, where many places compete, the factor is up to 17 % too
-#: small, 2 % in the median. Under one that rises first, changes of a ring compete: the factor of a
-#: sphere is up to 15 % too small near its jumps and 40 % between them, and more where the search
-#: begins with the change before.
+#: percent of spheres, the change of the state before mostly one of up to two; on a rough surface,
+#: where many places compete, the factor is up to 17 % too small, 2 % in the median. Under one that
+#: rises first, changes of a ring compete: the factor of a sphere is up to 15 % too small near its
+#: jumps and 40 % between them, and more where the search begins with the change before.
 VECTORS, VECTORS_RISING = 2, 4
 
-#: Part of a returned change that is new where the one before is the change sought; the error of the
-#: factor is about the square of it.
-RETURNS_ALIKE = 0.1
+#: Part of a returned change that is new, up to which the one from the state before is the change
+#: sought; the same of a law that ends abruptly, where the change is one of a narrow front.
+RETURNS_ALIKE, RETURNS_ALIKE_ABRUPT = 0.2, 0.05
 
 #: Residual of these systems over the change [-], and largest one of a system of a small part. The
 #: error of the factor is about the square of it.
 REDUCTION, LARGEST_REDUCTION = 0.1, 0.3
 
-#: The same of systems whose solution is about known from the state before, and of a law that rises
-#: first: on spheres and on a rough surface the factor errs no more than with the ones above.
-REDUCTION_LATER, LARGEST_REDUCTION_LATER = 0.3, 0.5
+#: The same of a law that rises first.
+REDUCTION_RISING, LARGEST_REDUCTION_RISING = 0.3, 0.5
+
+#: Reduction of the residual of a system whose solution is about known, and part of the work of a
+#: change that its contact yields at most; the error of the factor is about half of that.
+REDUCTION_CARRIED, LARGEST_YIELD, TRIALS = 0.3, 0.04, 4
 
 #: Slopes below this part of the largest one are none [-].
 NEGLIGIBLE_SLOPE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class ReturnedChange:
+    """Change of the attraction of a state that returns with the largest factor."""
+
+    values: Floats  # pressure, of cells in contact, too [Pa], and its unit displacement [Pa m]
+    motion: Floats  # over the compliance
+    in_contact: Bools
+
+    @property
+    def pressure(self) -> Guess:
+        """Pressure with its displacement, and motion over the compliance."""
+        return Guess(self.values, self.motion)
 
 
 def stability(
     problem: AdhesiveProblem,
     domain: ContactDomain,
     solution: ContactSolution,
-    known: Guess | None = None,
-) -> tuple[float, Guess | None]:
+    known: ReturnedChange | None = None,
+) -> tuple[float, ReturnedChange | None]:
     """Factor by which a small change of the attraction returns, < 1 if stable; and that change.
 
-    The change is one of the pressure [Pa], with the motion under it over the compliance; `known` is
-    that of a state before.
+    `known` is that of a state before.
     """
     pulled = attraction(problem.law, solution.gap, domain.periodic)
     falls = np.where(solution.in_contact, 0.0, -pulled.slope)
@@ -71,30 +87,27 @@ def stability(
     if problem.contact.compliance == 0 or not falls.any():
         return 0.0, None  # the surfaces do not move, or do not attract each other
     decreases = problem.law.decreasing is problem.law
-    solves = VECTORS if decreases else VECTORS_RISING
-    change, found = np.where(falls > 0, falls, 0.0), []
     held = _Held(problem, domain, solution.in_contact)
-    start, limit, reductions = None, NEGLIGIBLE_SLOPE, (REDUCTION, LARGEST_REDUCTION)
-    if known is not None or not decreases:
-        reductions = REDUCTION_LATER, LARGEST_REDUCTION_LATER
-    if known is not None and decreases:
-        before = held.answer(known, falls)
-        if before.returned.any():
-            change, start, limit = before.returned, before, RETURNS_ALIKE
-    reduction = reductions[0]
-    for _ in range(solves):
-        change *= problem.law.strength / np.abs(change).max()
-        found.append(held.answer_to(change, falls, reduction, start))
-        change, share = _apart(found[-1].returned, [each.attraction for each in found])
-        if share < limit:
-            break
+    found = [held.carried(known, falls)] if known is not None and decreases else []
+    change, limit = np.where(falls > 0, falls, 0.0), NEGLIGIBLE_SLOPE
+    solves, reductions = VECTORS, (REDUCTION, LARGEST_REDUCTION)
+    if not decreases:
+        solves, reductions = VECTORS_RISING, (REDUCTION_RISING, LARGEST_REDUCTION_RISING)
+    reduction, share = reductions[0], 1.0
+    if found:
+        change, share = _apart(found[0].returned, [found[0].attraction])
+        limit = RETURNS_ALIKE_ABRUPT if problem.law.is_abrupt else RETURNS_ALIKE
+    while len(found) < solves and share >= limit:
         # What is new is a small part, and its error a small part of that.
-        start, reduction = None, min(reductions[0] / share, reductions[1])
+        reduction = min(reductions[0] / share, reductions[1])
+        change *= problem.law.strength / np.abs(change).max()
+        found.append(held.answer_to(change, falls, reduction))
+        change, share = _apart(found[-1].returned, [each.attraction for each in found])
+        limit = NEGLIGIBLE_SLOPE
     factor, weights = _largest_ratio(found, np.flatnonzero(solution.in_contact))
-    if len(found) == 1:
-        return factor, found[0].pressure
-    pressures = _sum(weights, [each.pressure.values for each in found])
-    return factor, Guess(pressures, _sum(weights, [each.pressure.motion for each in found]))
+    values = _sum(weights, [each.pressure.values for each in found])
+    motion = _sum(weights, [each.pressure.motion for each in found])
+    return factor, ReturnedChange(values, motion, solution.in_contact)
 
 
 def _apart(change: Floats, known: list[Floats]) -> tuple[Floats, float]:
@@ -122,11 +135,8 @@ def _largest_ratio(found: list[_Answer], contact: Integers) -> tuple[float, Floa
     # yields: then an error of the answer counts by its square.
     metric, matrix = np.empty((2, len(found), len(found)))
     for column, other in enumerate(found):
-        yielded = other.opened.ravel()[contact]
         for row, each in enumerate(found):
-            metric[row, column] = np.einsum("ij,ij->", each.attraction, other.opened)
-            pressed = each.pressure.pressure.ravel()[contact]
-            metric[row, column] += np.einsum("i,i->", pressed, yielded)
+            metric[row, column] = sum(_works(each, other, contact))
             matrix[row, column] = np.einsum("ij,ij->", each.returned, other.opened)
     if len(found) == 1:
         return float(matrix[0, 0] / metric[0, 0]), np.ones(1)
@@ -135,6 +145,33 @@ def _largest_ratio(found: list[_Answer], contact: Integers) -> tuple[float, Floa
     except np.linalg.LinAlgError:  # the changes are multiples of one another
         return float(matrix[0, 0] / metric[0, 0]), np.eye(len(found))[0]
     return float(values[-1]), vectors[:, -1]
+
+
+def _works(each: _Answer, other: _Answer, contact: Integers) -> tuple[float, float]:
+    """Work of a change on what another opens, and of its contact on what that yields, per area."""
+    work = np.einsum("ij,ij->", each.attraction, other.opened)
+    pressed, yielded = each.pressure.pressure.ravel()[contact], other.opened.ravel()[contact]
+    return float(work), float(np.einsum("i,i->", pressed, yielded))
+
+
+def _filled(field: Floats, lost: Bools, wanted: Bools) -> Floats:
+    """Field with values in cells that are lost no more: the mean of neighbours that never were."""
+    # `field` is zero in the `lost` cells; those that are `wanted` may remain so.
+    cells = np.flatnonzero(lost & ~wanted)
+    if not cells.size:
+        return field
+    rows, columns = np.unravel_index(cells, field.shape)
+    total, number = np.zeros((2, cells.size))
+    for down, right in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        beside = (
+            np.clip(rows + down, 0, field.shape[0] - 1),
+            np.clip(columns + right, 0, field.shape[1] - 1),
+        )
+        total += field[beside]
+        number += ~lost[beside]
+    filled = field.copy()
+    filled[rows, columns] = total / np.maximum(number, 1)
+    return filled
 
 
 def _sum(weights: Floats, fields: Sequence[Floats]) -> Floats:
@@ -153,31 +190,77 @@ class _Held:
     domain: ContactDomain
     in_contact: Bools
 
-    def answer_to(
-        self, change: Floats, falls: Floats, reduction: float, known: _Answer | None
-    ) -> _Answer:
-        """Answer to about a change of the attraction [Pa], beginning with a known one."""
+    def answer_to(self, change: Floats, falls: Floats, reduction: float) -> _Answer:
+        """Answer to about a change of the attraction [Pa]."""
         # The equations of Newton's method for an attraction that does not depend on the gap.
-        domain, compliance = self.domain, self.problem.contact.compliance
-        yielded: Floats | float = 0.0
-        if known is None:
-            start = Guess(np.zeros((2, *domain.shape)), np.zeros(3))
-        else:
-            before = known.attraction
-            scale = np.einsum("ij,ij->", change, before) / np.einsum("ij,ij->", before, before)
-            motion = scale * compliance * known.pressure.motion
-            start, yielded = Guess(scale * known.pressure.values, motion), scale * known.opened
+        start = Guess(np.zeros((2, *self.domain.shape)), np.zeros(3))
+        goal = reduction * norm(change.ravel()) / self.problem.law.strength
+        return self._solved(start, change, falls, (0.0, goal))
+
+    def carried(self, known: ReturnedChange, falls: Floats) -> _Answer:
+        """Answer to about the change that one of a state before returns."""
+        before, contact = self.answer(known.pressure, falls), self.in_contact
+        # Cells that have parted open about as far as those beside them, and those that have met
+        # are pressed as those.
+        opened = _filled(np.where(known.in_contact, 0.0, before.opened), known.in_contact, contact)
+        change = falls * opened if opened.any() else falls.copy()
+        change *= self.problem.law.strength / np.abs(change).max()
+        last = np.where(known.in_contact, 0.0, known.pressure.pressure)
+        scale = -np.einsum("ij,ij->", change, last) / np.einsum("ij,ij->", last, last)
+        pressed = _filled(
+            np.where(known.in_contact, known.pressure.pressure, 0.0), ~known.in_contact, ~contact
+        )
+        values = np.empty((2, *contact.shape))
+        np.multiply(pressed, scale, out=values[0])
+        np.copyto(values[0], -change, where=~contact)
+        # Single precision is enough, as the answer is one to percents.
+        self.domain.whole.convolution.apply(values[0].astype(np.float32), into=values[1])
+        found = self.answer(Guess(values, scale * known.motion), falls)
+        touching = np.flatnonzero(contact)
+        is_balanced = not (self._free.any() or touching.size)
+        for _ in range(TRIALS):
+            work = np.einsum("ij,ij->", found.attraction, found.opened)
+            yielded = (found.pressure.pressure * found.opened).ravel()[touching]
+            if is_balanced and np.abs(yielded).sum() <= LARGEST_YIELD * work:
+                break
+            start = Guess(found.pressure.values, found.pressure.motion * self._compliance)
+            found, is_balanced = self._solved(start, change, falls, (REDUCTION_CARRIED, 0.0)), True
+        return found
+
+    @property
+    def _free(self) -> Bools:
+        return self.problem.contact.constraints.free
+
+    @property
+    def _compliance(self) -> float:
+        return self.problem.contact.compliance
+
+    def _solved(
+        self,
+        start: Guess,
+        change: Floats,
+        falls: Floats,
+        goals: tuple[float, float],
+    ) -> _Answer:
+        """Answer to a change [Pa] from a start, whose memory is used, to a reduction and a goal."""
+        yielded = self._opened(start) if start.pressure.any() else 0.0
         posed = AdhesiveResidual(
             np.where(self.in_contact, -yielded, 1.0),
-            Attraction(change, np.zeros(domain.shape)),
+            Attraction(change, np.zeros(self.domain.shape)),
             self.in_contact,
             *(0.0, 1.0, 0.0),
         )
-        system = LinearStep.of(_unloaded(self.problem), domain, start, posed, 1e-3)
-        motion = system.solve(start, 0.0, reduction * norm(change.ravel()))
+        unloaded = _unloaded(self.problem)
+        system = LinearStep.of(unloaded, self.domain, start, posed, 1e-3)
+        motion = system.solve(start, *goals)
         if not system.is_whole:
-            domain.convolution.apply(start.pressure, into=start.unit_displacement)
-        return self.answer(Guess(start.values, motion / compliance), falls)
+            self.domain.convolution.apply(start.pressure, into=start.unit_displacement)
+        return self.answer(Guess(start.values, motion / self._compliance), falls)
+
+    def _opened(self, start: Guess) -> Floats:
+        """How far surfaces approach each other under a pressure and a motion [m]."""
+        plane = self.domain.whole.plane.field(start.motion)
+        return np.asarray(plane - self._compliance * start.unit_displacement)
 
     def answer(self, pressure: Guess, falls: Floats) -> _Answer:
         """Answer that a change of the pressure is, with its motion over the compliance."""
