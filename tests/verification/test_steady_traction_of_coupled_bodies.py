@@ -113,6 +113,8 @@ def test_figures_show_the_forces_of_all_creepages_and_the_contact_of_one():
             joint.viscontact.plot(name)
     joint.viscontact.at_creepage(4e-4).viscontact.plot("motion-profile")
     assert "0.01 %, 0.04 %" in str(joint.viscontact)
+    # The contact at a place along the creepage, of which xarray keeps the coordinate.
+    assert "peak pressure" in str(joint.isel(creepage=0).viscontact)
     with pytest.raises(ValueError, match=r"must be one of those of the result \(0.0001, 0.0004\)"):
         joint.viscontact.at_creepage(2e-4)
 

@@ -498,7 +498,8 @@ def curve_of(state: ContactState, name: str) -> Floats:
 def scalars_in(results: Any, names: Iterable[str] | None = None) -> list[str]:
     """Names of the scalars that a result has, in their order; not what it has over the creepage."""
     names = SCALARS if names is None else names
-    return [name for name in names if name in results and "creepage" not in results[name].dims]
+    over = [(name, results[name].dims) for name in names if name in results]
+    return [name for name, dims in over if dims and "creepage" not in dims]
 
 
 #: Scalars of the flow through the gap, of runs whose case names a fluid.
