@@ -9,7 +9,7 @@ from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.layers import Layered, at_temperature
 from viscontact.bodies.materials.material import Material
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.problem.surface import clock_of, ended_response
 from viscontact.results.descriptions import rebuild
 from viscontact.results.recorded_case import case_of

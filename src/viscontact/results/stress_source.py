@@ -18,8 +18,8 @@ from viscontact.bodies.loads.clock import TIME, Clock
 from viscontact.bodies.materials.layers import Layered
 from viscontact.mechanics import halfspace
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 from viscontact.mechanics.halfspace.ended_load import EndedLoad
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.layered_shear_stress import LayeredShearStress
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stack_waves import interface_depths

@@ -14,7 +14,7 @@ from viscontact.bodies.loads import step
 from viscontact.bodies.materials.body import Body
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.free_end import end_functions, image_density
 from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.simulation.transient.state_generator import march

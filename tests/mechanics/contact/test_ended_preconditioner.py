@@ -8,7 +8,7 @@ import pytest
 from closeness import close_to
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.surface_response import SummedResponse
 
 GRID = Grid((16, 12), (16.0, 6.0))

@@ -13,7 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.moving_domain import MovingDomain
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
 from viscontact.mechanics.halfspace.moving_surface import MovingSurface
 

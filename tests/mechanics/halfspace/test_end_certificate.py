@@ -9,7 +9,7 @@ from mechanics.halfspace.ended_bodies import ENDS, GRID
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace import free_end, strip
 from viscontact.mechanics.halfspace.end_certificate import stress_left
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 
 
 def _pressure() -> Floats:

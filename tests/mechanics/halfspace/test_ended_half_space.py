@@ -10,7 +10,8 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.halfspace.end_correction import end_basis
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse, ended_rows
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
+from viscontact.mechanics.halfspace.ended_rows import ended_rows
 from viscontact.mechanics.halfspace.free_end import end_functions
 from viscontact.mechanics.halfspace.layered_influence import periodic_layered_table
 from viscontact.mechanics.halfspace.periodic_influence import smooth_periodic_table

@@ -11,8 +11,8 @@ from returned import some
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.halfspace.elastic_stack import ElasticLayer, ElasticStack
-from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.ended_load import EndedLoad
+from viscontact.mechanics.halfspace.ended_response import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.ended_stress import (
     ended_stress_on_plane,
     ended_stress_on_section,

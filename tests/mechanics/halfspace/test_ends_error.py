@@ -14,14 +14,14 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.transforms import transforms_by
 from viscontact.mechanics.halfspace import (
     end_correction,
-    ended_half_space,
+    ended_rows,
     free_end,
     plane_strip,
     strip,
     strip_basis,
 )
 from viscontact.mechanics.halfspace.convolution import Convolution
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse, ended_rows
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.periodic_ends import PeriodicEndCorrection
 
@@ -81,7 +81,7 @@ def _forget() -> None:
     kept = (strip.surface_panels, strip.face_of_strips, strip._parts_of, strip.strip_table)
     others = (free_end.images, free_end.end_functions, plane_strip.plane_strip)
     basis = strip_basis._of_short_waves
-    rows = (ended_half_space._kept_rows, ended_half_space._kept_period)
+    rows = (ended_rows._kept_rows, ended_rows._kept_period)
     for function in (*kept, *others, basis, *rows):
         function.cache_clear()
 
@@ -101,7 +101,7 @@ def _added(ratio: float, ends: str, grid: tuple[int, int, float]) -> dict[str, F
     nx, ny, width = grid
     cell = 1 / nx, width / ny
     borders = (0, None if planes[1] is None else nx)
-    rows = ended_rows(EndedResponse(ratio, planes, free), (nx, ny), cell, borders)
+    rows = ended_rows.ended_rows(EndedResponse(ratio, planes, free), (nx, ny), cell, borders)
     found = {}
     for name, pressure in _pressures((nx, ny)).items():
         parts = (end_correction.EndCorrection(b, slice(0, nx), ny, cell) for b in rows.bases)
@@ -147,7 +147,9 @@ def test_what_the_operator_of_plane_strain_misses_is_within_its_stated_error(
 
     def added() -> Floats:
         response = EndedResponse(0.3, (0.0, 1.0), free)
-        whole = ended_rows(response, (rows, 1), (1 / rows, 1.0), (0, rows), periodic=True)
+        whole = ended_rows.ended_rows(
+            response, (rows, 1), (1 / rows, 1.0), (0, rows), periodic=True
+        )
         pressures = np.stack([x**0, x, np.exp(-40 * (1 + x))])
         options = {"single": False, "transforms": transforms_by("scipy")}
         parts = [PeriodicEndCorrection(b, slice(0, rows), 1, **options) for b in whole.periodic]

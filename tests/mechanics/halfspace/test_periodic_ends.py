@@ -10,7 +10,7 @@ from mechanics.halfspace.plane_elements import PlaneSection
 from viscontact.backend.arrays import Floats
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.free_end import end_functions
 from viscontact.mechanics.halfspace.plane_corner import added_by_end
 from viscontact.mechanics.halfspace.plane_strip import MISSED, plane_strip

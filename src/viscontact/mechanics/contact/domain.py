@@ -19,7 +19,7 @@ from viscontact.mechanics.contact.patch import Patch, PatchOperators
 from viscontact.mechanics.contact.response_parts import Operator, PartOperators
 from viscontact.mechanics.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.mechanics.halfspace.convolution import Convolution
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse, has_ends, parts_of
+from viscontact.mechanics.halfspace.ended_response import EndedResponse, has_ends, parts_of
 from viscontact.mechanics.halfspace.influence import influence_table
 from viscontact.mechanics.halfspace.layered_influence import (
     layered_influence_table,

@@ -11,14 +11,9 @@ import numpy as np
 from viscontact.backend.team import Team, Workspace
 from viscontact.backend.transforms import Field, Transforms
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.halfspace.ended_half_space import (
-    EndedConvolution,
-    EndedLayers,
-    EndedResponse,
-    EndedRows,
-    ended_rows,
-    parts_of,
-)
+from viscontact.mechanics.halfspace.ended_convolution import EndedConvolution
+from viscontact.mechanics.halfspace.ended_response import EndedLayers, EndedResponse, parts_of
+from viscontact.mechanics.halfspace.ended_rows import EndedRows, ended_rows
 from viscontact.mechanics.halfspace.moving_load import MovingCompliance
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse

@@ -16,12 +16,8 @@ from viscontact.bodies.grid import Grid
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.response_parts import Operator
 from viscontact.mechanics.halfspace.convolution import Convolution
-from viscontact.mechanics.halfspace.ended_half_space import (
-    EndedResponse,
-    WeightedOperators,
-    has_ends,
-    parts_of,
-)
+from viscontact.mechanics.halfspace.ended_convolution import WeightedOperators
+from viscontact.mechanics.halfspace.ended_response import EndedResponse, has_ends, parts_of
 from viscontact.mechanics.halfspace.influence import influence_coefficient
 from viscontact.mechanics.halfspace.layered_influence import (
     layered_influence_coefficient,

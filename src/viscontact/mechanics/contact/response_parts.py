@@ -9,11 +9,8 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.halfspace.convolution import Convolution
-from viscontact.mechanics.halfspace.ended_half_space import (
-    EndedConvolution,
-    WeightedOperators,
-    has_ends,
-)
+from viscontact.mechanics.halfspace.ended_convolution import EndedConvolution, WeightedOperators
+from viscontact.mechanics.halfspace.ended_response import has_ends
 from viscontact.mechanics.halfspace.preconditioner import Preconditioner
 from viscontact.mechanics.halfspace.spectral import PeriodicConvolution
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse

@@ -18,7 +18,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
 from viscontact.mechanics import halfspace
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.filon import panel_nodes
 from viscontact.mechanics.halfspace.log_panels import LogPanels, interpolation
 

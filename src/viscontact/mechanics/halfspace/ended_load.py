@@ -10,7 +10,7 @@ import numpy as np
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.grid import Grid
-from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,8 @@ from viscontact.backend.arrays import Bools, Floats
 from viscontact.mechanics.halfspace import end_stress, long_strip, strip
 from viscontact.mechanics.halfspace.end_stress import Places, RowLoads
 from viscontact.mechanics.halfspace.end_waves import WaveMeans, near_waves
-from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.ended_load import EndedLoad, Face
+from viscontact.mechanics.halfspace.ended_response import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.layered_stress import LayeredStress
 from viscontact.mechanics.halfspace.stress import Stress, stress_on_plane, stress_on_section
 from viscontact.mechanics.halfspace.stress_lines import Progress, part_of

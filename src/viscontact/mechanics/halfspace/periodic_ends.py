@@ -9,7 +9,7 @@ as a pressure that is uniform over each cell, with the factors sin(k dy/2)/(k dy
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legvander
@@ -18,6 +18,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Field, Transforms
 from viscontact.mechanics.halfspace.end_correction import NODES, EndBasis, EndCorrection, end_basis
+from viscontact.mechanics.halfspace.ended_response import EndedResponse
 from viscontact.mechanics.halfspace.free_end import pivoted_cholesky
 from viscontact.mechanics.halfspace.log_panels import LogPanels
 from viscontact.mechanics.halfspace.plane_corner import added_by_end
@@ -30,9 +31,6 @@ from viscontact.mechanics.halfspace.strip_basis import (
     cell_means,
     strip_basis,
 )
-
-if TYPE_CHECKING:
-    from viscontact.mechanics.halfspace.ended_half_space import EndedResponse
 
 #: Largest entry that the operator of k = 0 may leave out, relative to the largest one.
 NEGLECTED = 1e-10

@@ -32,7 +32,7 @@ from viscontact.bodies.materials.layers import Layered, materials_of, without_en
 from viscontact.bodies.materials.material import Material
 from viscontact.mechanics import problem
 from viscontact.mechanics.halfspace.elastic_stack import ElasticStack
-from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedLayers, EndedResponse
 from viscontact.mechanics.halfspace.surface_response import (
     HALF_SPACE,
     SummedResponse,

@@ -16,7 +16,7 @@ from viscontact.bodies.loads.motion import Motion
 from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.bodies.materials.layers import Layered, without_ends
 from viscontact.mechanics import halfspace
-from viscontact.mechanics.halfspace.ended_half_space import EndedLayers, EndedResponse
+from viscontact.mechanics.halfspace.ended_response import EndedLayers, EndedResponse
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.problem.surface import ended_response
 from viscontact.units.formatting import format_quantity

@@ -19,7 +19,7 @@ from viscontact.mechanics.contact.equilibrium import solve_contact
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 from viscontact.mechanics.contact.rim import Rim, trace_rim
-from viscontact.mechanics.halfspace.ended_half_space import planes_in
+from viscontact.mechanics.halfspace.ended_response import planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.units.formatting import format_quantity
 

@@ -12,7 +12,7 @@ from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
 from viscontact.bodies.loads import LoadPoint
-from viscontact.mechanics.halfspace.ended_half_space import planes_in
+from viscontact.mechanics.halfspace.ended_response import planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.simulation.meshing.elastic_estimate import (
     MAX_PERIOD_CELLS,

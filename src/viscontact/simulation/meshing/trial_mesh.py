@@ -19,7 +19,7 @@ from viscontact.mechanics.contact.line_load import line_load, peak_line_load
 from viscontact.mechanics.contact.mirror_symmetry import even_axes, mirrored_axes
 from viscontact.mechanics.contact.rim import Rim, trace_rim
 from viscontact.mechanics.contact.rim_extent import mean_chords
-from viscontact.mechanics.halfspace.ended_half_space import has_even_ends, planes_in
+from viscontact.mechanics.halfspace.ended_response import has_even_ends, planes_in
 from viscontact.mechanics.halfspace.surface_response import HALF_SPACE, SurfaceResponse
 from viscontact.simulation.meshing.body_fit import fitted_extents, grid_with_ends
 from viscontact.simulation.meshing.elastic_estimate import ContactEstimate, elastic_contact
