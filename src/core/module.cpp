@@ -40,7 +40,7 @@ double largest(const nb::ndarray<const Real, nb::device::cpu> &array) {
 
 NB_MODULE(_core, module) {
     module.doc() = "Inner loops of `viscontact`, as it has them in NumPy too.";
-    module.attr("INTERFACE") = 5;
+    module.attr("INTERFACE") = 6;
     module.attr("SOURCES") = VISCONTACT_SOURCES;
     module.def("largest", &largest<double>, nb::arg("array").noconvert());
     module.def("largest", &largest<float>, nb::arg("array").noconvert());

@@ -72,4 +72,14 @@ double move(const Plane &plane, const Doubles &pressure, const Doubles &displace
 
 Motion sums(const Plane &plane, const Doubles &values);
 
+// Overlap of a body with springs of one cell each, by its rigid motion.
+struct Pressed {
+    double squares;  // sum of the squares of the overlaps
+    Motion sums;     // of the overlaps
+    Matrix inverse;  // of the Gram matrix over pressed springs and a share of those that bear
+};
+
+Pressed press(const Plane &plane, const Doubles &gap, const Motion &motion, const Doubles &bearing,
+              double share, const Free &free);
+
 }  // namespace viscontact

@@ -113,4 +113,11 @@ void define_search(nb::module_ &module) {
     define(module, "sums", [](const Plane &plane, Array<const double> values) {
         return triple(viscontact::sums(plane, field(plane, values)));
     });
+    define(module, "press",
+           [](const Plane &plane, Array<const double> gap, Triple at, Array<const double> bearing,
+              double share, FreeTriple free) {
+               const auto found = viscontact::press(plane, field(plane, gap), motion(at),
+                                                    field(plane, bearing), share, free_of(free));
+               return std::tuple(found.squares, triple(found.sums), entries(found.inverse));
+           });
 }

@@ -121,6 +121,9 @@ def move(
     /,
 ) -> float: ...
 def sums(plane: Plane, values: Floats, /) -> Triple: ...
+def press(
+    plane: Plane, gap: Floats, motion: Triple, bearing: Floats, share: float, free: Free, /
+) -> tuple[float, Triple, Matrix]: ...
 
 # Between steps: see `viscontact.backend.team` and `viscontact.mechanics.contact.recession`.
 def weighted_sum(

@@ -22,7 +22,7 @@ from viscontact.backend.errors import CoreError
 VARIABLE = "VISCONTACT_CORE"
 CHOICES = ("", "off", "required")
 #: Counts changes of what functions of the core take, return or mean, as `INTERFACE` there.
-INTERFACE = 5
+INTERFACE = 6
 
 _choice = os.environ.get(VARIABLE, "")
 if _choice not in CHOICES:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import DTypeLike
@@ -141,6 +141,11 @@ class RigidPlane:
     def cells(self) -> tuple[Floats, Floats, tuple[float, float], tuple[bool, bool], int]:
         """Cell centres [m] and sizes (dx, dy) [m], mirrored axes, and number of threads."""
         return self._x, self._y, self._cell_size, self._mirrored, self.team.threads
+
+    @cached_property
+    def of_core(self) -> Any:
+        """The same cells in the team's compiled core; None without one."""
+        return self.team.core and self.team.core.Plane(*self.cells)
 
     @cached_property
     def extents(self) -> Floats:

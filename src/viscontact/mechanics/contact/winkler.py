@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
+from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.clearance import ROUNDING, just_clear, touching_motion
 from viscontact.mechanics.contact.rigid_balance import Constraints, RigidPlane
 
@@ -117,28 +118,49 @@ def _newton_solve(
     """Motion of least energy and its overlap, by a damped Newton method."""
     # The cells in contact on the last, softer foundation (`bearing`) add a little stiffness, so
     # that the Hessian is never singular.
-    energy, overlap = _energy(gap, motion, target, plane)
+    foundation = np.ascontiguousarray(gap), plane, free, np.ascontiguousarray(bearing)
+    pressed = _pressed(motion, *foundation)
     for _ in range(MAX_NEWTON):
-        inverse = plane.inverse_gram((overlap > 0) + REGULARISATION * bearing, free)
         # Newton step, halved until the energy does not rise.
-        newton, before = inverse @ (target - plane.sums(overlap)), energy
+        newton, before = pressed.inverse @ (target - pressed.sums), pressed.energy(target)
         for halving in range(20):
-            moved = motion + newton / 2**halving
-            energy, overlap = _energy(gap, moved, target, plane)
-            if energy <= before:
+            pressed = _pressed(motion + newton / 2**halving, *foundation)
+            if pressed.energy(target) <= before:
                 break
-        motion = moved
-        if before - energy <= 1e-16 * abs(before):
+        motion = pressed.motion
+        if before - pressed.energy(target) <= 1e-16 * abs(before):
             break
-    return motion, overlap
+    return motion, _overlap(motion, gap, plane)
 
 
-def _energy(
-    gap: Floats,
-    motion: Floats,
-    target: Floats,
-    plane: RigidPlane,
-) -> tuple[float, Floats]:
-    """Energy of a motion, over the stiffness, and the overlap [m]."""
-    overlap = np.maximum(plane.field(motion) - gap, 0.0)
-    return float(np.square(overlap).sum() / 2 - target @ motion), overlap
+@dataclass(frozen=True, eq=False)
+class _Pressed:
+    """Springs that a motion presses, of unit stiffness."""
+
+    motion: Floats
+    squares: float  # sum of the squares of the overlaps [m²]
+    sums: Floats  # of the overlaps against 1, x, y
+    inverse: Floats  # of the Gram matrix over the pressed springs and a part of the bearing ones
+
+    def energy(self, target: Floats) -> float:
+        """Energy of the motion, over the stiffness."""
+        return float(self.squares / 2 - target @ self.motion)
+
+
+def _pressed(
+    motion: Floats, gap: Floats, plane: RigidPlane, free: Bools, bearing: Floats
+) -> _Pressed:
+    """Springs that a motion presses, in one pass of the compiled core if there is one."""
+    if (core := plane.team.core) is not None:
+        at, free_motions = tuple(motion.tolist()), tuple(free.tolist())
+        others = bearing, REGULARISATION, free_motions
+        squares, sums, inverse = core.press(plane.of_core, gap, at, *others)
+        return _Pressed(motion, squares, np.array(sums), np.array(inverse))
+    overlap = _overlap(motion, gap, plane)
+    inverse = plane.inverse_gram((overlap > 0) + REGULARISATION * bearing, free)
+    return _Pressed(motion, np.square(overlap).sum(), plane.sums(overlap), inverse)
+
+
+def _overlap(motion: Floats, gap: Floats, plane: RigidPlane) -> Floats:
+    """Overlap of a moved body with the springs [m]."""
+    return np.maximum(plane.field(motion) - gap, 0.0)

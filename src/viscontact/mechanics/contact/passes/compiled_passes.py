@@ -22,7 +22,7 @@ class CompiledPasses(SearchPasses):
     """Passes over the cells of a plane, by the compiled core; sums are in double precision."""
 
     def __init__(self, core: ModuleType, plane: RigidPlane) -> None:
-        self._core, self._cells = core, core.Plane(*plane.cells)
+        self._core, self._cells = core, plane.of_core or core.Plane(*plane.cells)
 
     def measure(
         self,
