@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
+from verification.moving_bodies import BODY, ELASTIC, J0, J1, LEVEL, TIME, ZENER, travelled
 from viscontact.bodies.grid import AutomaticGrid
 from viscontact.mechanics.contact.resistance import resistance_by_displacement
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
@@ -20,47 +20,9 @@ from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.over_time import OverTime
 from viscontact.simulation import meshing
-from viscontact.simulation.accuracy.coarser_runs import plan_coarser_runs
-from viscontact.simulation.checks.motion import left_after
 from viscontact.simulation.transient.setup import prepare_run
 
-#: A Zener body that relaxes from 2000 to 200 with a retardation time of 10; J = Phi for nu = 0.
-J0, J1, TIME = 1 / 2000, 1 / 200 - 1 / 2000, 10.0
-ZENER = vc.Material(vc.CreepSeries(J0, [J1], [TIME]), poisson_ratio=0.0)
-ELASTIC = vc.Material(vc.Elastic(1 / (2 * J0)), poisson_ratio=0.0)
-BODY = vc.Paraboloid(10.0, 10.0)
-LEVEL = vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
-
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-
-
-def travelled(
-    material: vc.Material = ZENER,
-    along: Literal["x", "y"] = "y",
-    way: float = 1.6,
-    *,
-    cell: float = 0.08,
-    cells_a_step: float = 1,
-    speed: float = 0.1,
-    load: Any = LEVEL,
-    **options: Any,
-) -> xr.Dataset:
-    """A paraboloid pressed with 10 N, moved from rest over a way of some contact radii."""
-    size, far = 3.2, abs(way)
-    shape = [round(size / cell), round((size + far) / cell)]
-    centre = [0.0, way / 2]
-    if along == "x":
-        shape, centre = shape[::-1], centre[::-1]
-    grid = vc.Grid(
-        (shape[0], shape[1]),
-        (shape[0] * cell, shape[1] * cell),
-        centre=(centre[0], centre[1]),
-    )
-    step = cells_a_step * cell / speed
-    times = step * np.arange(round(far / speed / step) + 1)
-    path = vc.Travel([0.0, times[-1]], **{along: [0.0, way]})
-    options = {"fields": "none", "errors": False} | options
-    return vc.simulate(BODY, material, load, grid, times, motion=path, **options)
 
 
 @pytest.mark.slow
@@ -228,126 +190,6 @@ def test_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
     assert vc.open_results(tmp_path / "result.nc").equals(ds)
 
 
-#: Scalars with error bars whose values depend on the motion.
-ESTIMATED = ("resistance_y", "friction_coefficient", "motion_work", "dissipation", "heat")
-
-#: Largest bars at the end of the run below over the values.
-LARGEST_BARS = dict.fromkeys(ESTIMATED, 0.17) | {
-    "approach": 0.015,
-    "work": 0.03,
-    "contact_area": 0.13,
-    "peak_pressure": 0.6,
-}
-
-
-@pytest.mark.parametrize("cells_a_step", [1, pytest.param(0.7, marks=pytest.mark.slow)])
-def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
-    way = {"way": 1.68, "speed": 0.2}
-    ds = travelled(cell=0.08, cells_a_step=cells_a_step, errors=True, **way)
-    finer = travelled(cell=0.04, cells_a_step=cells_a_step, **way)
-    finer = finer.sel(time=ds.time, method="nearest", tolerance=1e-9)
-    for name, largest in LARGEST_BARS.items():
-        error, bar = abs(ds[name] - finer[name]), ds[f"{name}_error"]
-        assert float((error[1:] <= bar[1:]).mean()) > 0.9, name
-        assert float(bar[-1] / ds[name][-1]) < largest, name
-
-
-@pytest.mark.parametrize(
-    ("body", "along"),
-    [
-        (ZENER, "y"),
-        pytest.param(vc.Layered([vc.Layer(0.5, ZENER)], base="rigid"), "x", marks=pytest.mark.slow),
-    ],
-)
-def test_area_of_a_moving_strip_is_about_as_certain_as_its_width(body: Any, along: str) -> None:
-    """Both are off by the two straight rims, so that their relative errors are equal."""
-    way, speed = 0.48, 0.2
-
-    def strip(cell: float, *, errors: bool) -> xr.Dataset:
-        count = round((way + 2.4) / cell)
-        shape, size, centre = (1, count), (1.0, count * cell), (0.0, way / 2)
-        radii = (np.inf, 10.0)
-        if along == "x":
-            shape, size, centre, radii = shape[::-1], size[::-1], centre[::-1], radii[::-1]
-        grid = vc.Grid(shape, size, periodic=(along == "y", along == "x"), centre=centre)
-        path = vc.Travel([0.0, way / speed], **{along: [0.0, way]})
-        options = {"motion": path, "fields": "none", "errors": errors}
-        return vc.simulate(vc.Paraboloid(*radii), body, LEVEL, grid, **options)
-
-    ds = strip(0.04, errors=True)
-    finer = strip(0.01, errors=False).sel(time=ds.time, method="nearest", tolerance=1e-9)
-    error, bar = abs(ds.contact_area - finer.contact_area), ds.contact_area_error
-    assert float((error[1:] <= bar[1:]).mean()) > 0.9
-    width = "contact_width" if along == "y" else "contact_length"
-    of_width = ds[f"{width}_error"] / ds[width]
-    assert (bar / ds.contact_area).values[1:] == close_to(of_width.values[1:], rel=0.6)
-    assert float((bar / ds.contact_area)[1:].max()) < 0.05
-
-
-def test_nothing_is_uncertain_before_the_first_contact() -> None:
-    load = vc.ForceHistory([0, 1, 4, 5], [0, 10, 10, 0], tilt_x=0.0, tilt_y=0.0)
-    ds = travelled(way=0.64, load=load, errors=True)
-    for name in ("resistance_y", "motion_work", "dissipation", "heat"):
-        assert float(ds[f"{name}_error"][0]) == 0.0
-    apart = (ds.force == 0).values
-    assert (ds.resistance_y_error.values[apart] == 0).all()
-    assert (ds.heat_error.values[apart][1:] > 0).all()
-
-
-def test_coarser_runs_move_by_whole_cells_that_lie_alike() -> None:
-    grid = vc.Grid((60, 80), (3.0, 4.0), centre=(0.0, 0.36))
-    path = vc.Travel([0.0, 4.0, 8.0], y=[0.0, 0.6, 0.0])
-    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, motion=path))
-    history = {
-        "time": run.problem.instants,
-        "time_error": np.ones(run.problem.instants.size),
-        "peak_pressure": np.ones(run.problem.instants.size),
-        "cells_across": np.array([15.0]),
-    }
-    planned = list(plan_coarser_runs(run, history))
-    assert [coarser.divides_steps for coarser in planned] == [False, False, True]
-    for coarser in planned[:2]:
-        own = (path.position_at(coarser.run.problem.instants) - coarser.run.grid.y[0])[:, 1]
-        parts = own / coarser.run.grid.cell_size[1] % 1
-        assert parts == close_to((0.0 - grid.y[0]) / 0.05 % 1)
-
-
-def test_force_on_the_edge_of_a_punch_is_not_known() -> None:
-    grid = vc.Grid((20, 24), (2.0, 2.4), centre=(0.0, 0.2))
-    with pytest.warns(vc.AccuracyWarning, match="force on this edge is not computed"):
-        ds = vc.simulate(
-            *(vc.FlatPunch(0.5), ZENER, LEVEL, grid),
-            motion=vc.Travel([0.0, 4.0], y=[0.0, 0.4]),
-            errors=False,
-        )
-    for name in ("resistance_y", "friction_coefficient", "motion_work"):
-        assert ds[name][1:].isnull().all()
-    assert (ds.resistance_x == 0).all()
-    assert (ds.dissipation > 0).all()
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"indenter_material": ZENER}, "rolling=True .* False"),
-        ({"motion": vc.Travel([0, 1], y=[0, 9.0])}, "beyond the grid"),
-        (
-            {
-                "indenter": vc.FlatPunch(0.5),
-                "indenter_material": ZENER,
-                "motion": vc.Travel([0, 1], y=[0, 0.4], rolling=True),
-            },
-            "no radius of curvature along the motion",
-        ),
-    ],
-)
-def test_what_is_not_available_is_refused_by_name(change: dict[str, Any], message: str) -> None:
-    given = {"grid": vc.Grid((40, 40), (3.2, 3.2)), "motion": vc.Travel([0, 1], y=[0, 0.4])}
-    given = {"indenter": BODY, "material": ZENER, "load": LEVEL} | given | change
-    with pytest.raises(ValueError, match=message):
-        next(vc.march(**given))
-
-
 def test_contact_that_is_lost_has_no_resistance_and_returns() -> None:
     load = vc.ForceHistory([0, 2, 3, 5, 6], [10, 10, 0, 0, 10], tilt_x=0.0, tilt_y=0.0)
     ds = travelled(way=0.8, load=load)
@@ -416,11 +258,6 @@ def test_automatic_grid_grows_where_a_moving_contact_outgrows_it(
         assert grown[name].values == close_to(whole[name].values, abs=2e-3 * scale)
 
 
-def test_a_jump_of_the_position_is_refused() -> None:
-    with pytest.raises(ValueError, match="the position cannot jump"):
-        vc.Travel([0.0, 1.0, 1.0], y=[0.0, 1.0, 2.0])
-
-
 def test_two_rolling_bodies_have_the_compliance_of_both() -> None:
     path = {"way": 0.8}
     twice = vc.Material(vc.CreepSeries(2 * J0, [2 * J1], [TIME]), poisson_ratio=0.0)
@@ -435,50 +272,6 @@ def test_two_rolling_bodies_have_the_compliance_of_both() -> None:
     )
     # Both are solved to 1e-6 of the pressure, and differ by the rounding of their compliances.
     assert both.resistance_y.values == close_to(one.resistance_y.values, rel=1e-7)
-
-
-def test_long_steps_are_reported() -> None:
-    with pytest.warns(vc.AccuracyWarning, match="move at most"):
-        travelled(cells_a_step=5)
-    with pytest.warns(vc.AccuracyWarning, match="retardation times that cause 100% of the loss"):
-        travelled(speed=1e-3, way=0.4)
-
-
-def messages(body: vc.Indenter, load: Any, grid: vc.Grid, motion: vc.Motion, **more: Any) -> str:
-    """Warnings of the first state of a run."""
-    return "; ".join(next(vc.march(body, ZENER, load, grid, motion=motion, **more)).warnings)
-
-
-@pytest.mark.parametrize(("turns", "warned"), [(0.9, False), (1.1, True)])
-def test_material_of_a_roller_that_returns_unrecovered_is_reported(
-    turns: float, warned: bool
-) -> None:
-    radius = 1.0
-    way = turns * 2 * np.pi * radius
-    grid = vc.Grid((1, 80), (1.0, 10.0), periodic=(True, False), centre=(0.0, way / 2))
-    path = vc.Travel([0.0, way / 0.5], y=[0.0, way], rolling=True)
-    body, load = vc.Paraboloid(np.inf, radius), vc.step(10.0, tilt_y=0.0)
-    found = messages(body, load, grid, path, indenter_material=ZENER)
-    assert ("earlier turns are not included" in found) is warned
-
-
-def test_deflection_left_after_a_turn_is_that_of_a_kelvin_body() -> None:
-    """A Kelvin body that is unloaded recovers as the exponential of time over its retardation."""
-    turn, load = 3.0, 0.3
-    held = J1 * (1 - np.exp(-load / TIME))
-    exact = held * np.exp(-turn / TIME) / (J0 + held)
-    compliance = vc.Material(vc.CreepSeries(J0, [J1], [TIME]), 0.0).contact_compliance()
-    assert left_after(compliance, turn) == close_to(exact, rel=1e-9)
-
-
-def test_free_tilt_along_the_motion_is_reported_for_a_line_contact_as_well() -> None:
-    body, free = vc.Paraboloid(np.inf, 10.0), vc.step(10.0)
-    strip = vc.Grid((1, 60), (1.0, 4.0), periodic=(True, False))
-    path = vc.Travel([0.0, 1.0], y=[0.0, 0.1])
-    assert "tilt_y is free of moment" in messages(body, free, strip, path)
-    assert "tilt_x" not in messages(body, free, strip, path)
-    held = vc.step(10.0, tilt_y=0.0)
-    assert "free of moment" not in messages(body, held, strip, path)
 
 
 def test_punch_that_moves_by_parts_of_cells_has_no_pressure_beyond_its_ends() -> None:
@@ -496,55 +289,3 @@ def test_punch_that_moves_by_parts_of_cells_has_no_pressure_beyond_its_ends() ->
             assert state.force == close_to(10.0, rel=1e-6)
         ways.append([state.approach for state in states])
     assert ways[0] == close_to(ways[1], rel=1e-5)
-
-
-@pytest.mark.parametrize("moving", ["transient", "steady"])
-def test_force_across_the_motion_is_unknown_at_sharp_ends_unless_the_contact_is_even(
-    moving: str,
-) -> None:
-    """Both forms of the resistance agree on a smooth body; at a sharp end neither has a limit.
-
-    By symmetry there is no force across under a level body.
-    """
-    rubber = vc.Material(vc.Zener(9e6, 1e6, 1e4), poisson_ratio=0.5)
-    eccentric = vc.step(5.0, eccentricity_x=1e-3, tilt_y=0.0)
-    level = vc.step(5.0, tilt_x=0.0, tilt_y=0.0)
-    sharp, smooth = vc.Roller(20e-3, 5e-3), vc.Paraboloid(30e-3, 20e-3)
-    grid = vc.Grid((36, 36), (16e-3, 12e-3), centre=(0.0, 0.5e-3))
-
-    def last(body: vc.Indenter, load: Any) -> xr.Dataset:
-        if moving == "steady":
-            return vc.steady(body, rubber, load, 0.05, grid=grid, errors=False).isel(speed=0)
-        path = vc.Travel([0.0, 0.02], y=[0.0, 1e-3])
-        times = [0.0, 0.01, 0.02]
-        ds = vc.simulate(body, rubber, load, grid, times, motion=path, errors=False)
-        return ds.isel(time=-1)
-
-    with pytest.warns(vc.AccuracyWarning, match="end of the body across the motion"):
-        free = last(sharp, eccentric)
-    assert np.isnan(free.resistance_x)
-    assert free.friction_coefficient > 0
-    assert float(last(sharp, level).resistance_x) == close_to(0.0, abs=1e-12)
-    rounded = last(smooth, eccentric)
-    pressure, displacement = rounded.pressure.values, rounded.displacement.values
-    other = resistance_by_displacement(pressure, displacement, grid)[0]
-    slope_part = abs(5.0 * float(rounded.tilt_x))  # cancels almost
-    assert float(rounded.resistance_x) == close_to(other, abs=0.01 * slope_part)
-
-
-@pytest.mark.parametrize("periodic", [(False, True), (True, False), (False, False), (True, True)])
-def test_bodies_that_follow_each_other_are_reported(periodic: tuple[bool, bool]) -> None:
-    """The track of the body ahead lowers the friction of one that meets it."""
-    grid = vc.Grid((24, 24), (3.2, 3.2), periodic=periodic)
-    load = vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
-    found = messages(BODY, load, grid, vc.Travel([0.0, 1.0], y=[0.0, 0.1]))
-    assert ("meets their tracks" in found) is (periodic == (False, True))
-
-
-def test_heat_that_is_not_known_has_a_reason() -> None:
-    power = vc.Material(vc.PowerLaw(1e-3, 0.3, 1.0, instant=J0), poisson_ratio=0.5)
-    grid, path = vc.Grid((24, 24), (4.0, 4.0)), vc.Travel([0.0, 1.0], y=[0.0, 0.1])
-    state = next(vc.march(BODY, power, LEVEL, grid, motion=path))
-    assert np.isnan(state.heat)
-    assert any("dissipation and heat are not known" in text for text in state.warnings)
-    assert "heat are not known" not in messages(BODY, LEVEL, grid, path)
