@@ -39,8 +39,9 @@ SHORT = 1 / 32
 #: a cell across.
 IMAGES = 6
 
-#: Chebyshev's nodes of what the far images add, for each length of the images summed one by one.
-FAR_NODES = 14
+#: Images that are found at all places, and Chebyshev's nodes for each distance of the next ones, at
+#: which they and those beyond are found.
+NEXT, FAR_NODES = 1, 14
 
 #: Factors of the first, third, ... derivative in the Euler-Maclaurin formula from the middle.
 MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 154828800))
@@ -75,13 +76,14 @@ def smooth_periodic_table(
     period, images = nx * dx, max(IMAGES, math.ceil(IMAGES * dy / (nx * dx)))
     x = np.arange(nx // 2 + 1, dtype=np.float64) * dx
     y = np.arange(ny, dtype=np.float64) * dy
-    near = sum(
-        influence_coefficient(x[:, None] + image * period, y[None, :], cell_size)
-        for image in range(-images, images + 1)
-    )
     along, across = (_nodes_among(each, period) for each in (x, y))
     rule = (SHORT_NODES, SHORT_WEIGHTS) if max(dx, dy) < SHORT * period else GAUSS
     far = _far_images(along[:, None], across[None, :], cell_size, period, images, datum, rule)
+    near = np.zeros((len(x), ny))
+    for image in range(-images, images + 1):
+        is_near = abs(image) <= NEXT
+        places, others, into = (x, y, near) if is_near else (along, across, far)
+        into += influence_coefficient(places[:, None] + image * period, others, cell_size)
     half = near + _between(x, along) @ far @ _between(y, across).T
     offsets = np.arange(nx)
     return np.asarray(half[np.minimum(offsets, nx - offsets)])
@@ -90,7 +92,7 @@ def smooth_periodic_table(
 def _nodes_among(places: Floats, period: float) -> Floats:
     """Chebyshev's nodes over places for what varies over some periods, or all places [m]."""
     length = float(places[-1])
-    count = FAR_NODES + FAR_NODES * math.ceil(length / (IMAGES * period))
+    count = FAR_NODES + FAR_NODES * math.ceil(length / ((NEXT + 0.5) * period))
     if 2 * count > len(places):
         return places
     angles = np.pi * (np.arange(count) + 0.5) / count
