@@ -111,6 +111,25 @@ def test_work_of_a_cycle_is_what_the_jumps_lose(loop):
     assert 0 < lost < 0.05 * FORCE * DEPTH
 
 
+@pytest.mark.parametrize(("tabor", "since"), [(1.0, -0.945), (1.5, -0.85)])
+def test_work_of_a_cycle_in_few_steps_is_the_area_between_its_ways(tabor, since):
+    # Between its jumps the elastic sphere goes back on its way: the force of both ways, at many
+    # approaches around the jumps, encloses what is lost, a hundredth of π w R times the unit of
+    # approach at a Tabor number of 1. No energy enters into that.
+    levels, where = np.array([-2.2, 0.8, -2.2]) * DEPTH, grid(72, 9.0)
+    given = SPHERE, GEL, vc.ApproachHistory([0.0, 1.0, 2.0], levels), where
+    other = {"adhesion": vc.Adhesion(WORK, range=RANGE / tabor), "errors": False, "fields": "none"}
+    few = vc.simulate(*given, [0.0, 1.0, 2.0], **other)
+    approaches = np.linspace(-0.99, since, 161)
+    ahead = (approaches * DEPTH - levels[0]) / (levels[1] - levels[0])
+    many = vc.simulate(*given, np.sort([0.0, *ahead, 1.0, *(2 - ahead), 2.0]), **other)
+    forces = many.force.values
+    assert few.attrs["event_kind"].splitlines() == ["jump_in", "pull_off"]
+    lost = np.trapezoid(forces[1:162] - forces[-2:-163:-1], approaches) * DEPTH
+    assert 0.005 < lost / (FORCE * DEPTH) < 0.15
+    assert float(few.work[-1] - few.work[0]) == close_to(lost, rel=1e-2)
+
+
 @pytest.mark.slow
 def test_work_of_a_cycle_is_the_energy_that_the_jumps_lose():
     # Elastic energy less that of adhesion, right before and right after each jump.

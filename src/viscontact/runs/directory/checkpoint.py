@@ -13,7 +13,7 @@ from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 
 #: Layout of the restart data; raise it with every change of a name or a meaning in them.
-LAYOUT = 10
+LAYOUT = 11
 
 #: Remedy for files from which a run cannot be resumed.
 REMEDY = "start the run again with --overwrite"

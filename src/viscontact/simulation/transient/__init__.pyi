@@ -1,4 +1,4 @@
-from .adhesion_results import adhesion_energy, adhesion_scalars
+from .adhesion_results import adhesion_scalars
 from .adhesive_contact import AdhesiveContact, AdhesiveStep
 from .contact_events import ContactEvents
 from .coupled_contact import CoupledContact
@@ -25,7 +25,6 @@ __all__ = [
     "ProgramCourse",
     "StandingContact",
     "ZonePassage",
-    "adhesion_energy",
     "adhesion_scalars",
     "cells_seen",
     "contact_event_attributes",

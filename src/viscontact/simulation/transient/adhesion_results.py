@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.backend.arrays import Floats
-from viscontact.bodies.cohesive_laws import CohesiveLaw
-from viscontact.bodies.grid import Grid
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Part of the strength from which on cells outside the contact belong to the cohesive zone [-].
 ZONE_SHARE = 0.01
-
-
-def adhesion_energy(law: CohesiveLaw, grid: Grid, gap: Floats) -> float:
-    """Work that separating the surfaces from a gap would take [J]."""
-    return float(law.energy(np.maximum(gap, 0.0)).sum()) * grid.cell_area
 
 
 def adhesion_scalars(run: RunSetup, solution: StepSolution) -> dict[str, float]:
@@ -26,6 +18,6 @@ def adhesion_scalars(run: RunSetup, solution: StepSolution) -> dict[str, float]:
     return {
         "least_pressure": float(solution.pressure.min()),
         "tensile_area": np.count_nonzero(pulled) * run.grid.cell_area,
-        "adhesion_energy": adhesion_energy(run.law, run.grid, solution.gap),
+        "adhesion_energy": solution.adhesion_energy,
         "stability": solution.stability,
     }

@@ -78,6 +78,7 @@ class AdhesiveStep:
     outcome: Outcome
     change: float  # inf of a jump [-]
     is_too_long: bool = False  # not solved, as a shorter one has to be taken
+    jumped: bool = False  # found by descent
 
 
 class AdhesiveContact:
@@ -179,9 +180,9 @@ class AdhesiveContact:
         found = solve_from(*given, from_afar=from_afar)
         if found is None:
             apart = released(problem, self._domain)
-            return AdhesiveStep(problem, apart, Outcome.PULLED_OFF, math.inf)
+            return AdhesiveStep(problem, apart, Outcome.PULLED_OFF, math.inf, jumped=True)
         change = math.inf if self._change(found) > ENDS_SMOOTH else 1.0
-        return AdhesiveStep(problem, found, _outcome(found), change)
+        return AdhesiveStep(problem, found, _outcome(found), change, jumped=True)
 
     def _at_first(self, problem: AdhesiveProblem) -> Floats:
         """Attraction from which the first contact is found [Pa]."""

@@ -29,6 +29,9 @@ class StepSolution:
     resolved: bool  # False where the step was long against the law
     #: Factor by which a small change of the attraction returns; NaN between reported states [-].
     stability: float = math.nan
+    #: Work that separating the surfaces would take [J], 0 without adhesion.
+    adhesion_energy: float = 0.0
+    jumped: bool = False  # to another state, at once
     time_error: float = 0.0  # estimated relative error of the pressure by the steps so far [-]
     # Energy that the bodies lose in the step of a moving contact [J]; NaN if unknown.
     heat: float = math.nan

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.simulation import transient
+from viscontact.bodies.cohesive_laws import CohesiveLaw
 from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 
@@ -15,9 +15,7 @@ MOST_OF_CHANGES, MOST_WHERE_APART = 0.25, 0.5
 
 def first_work(run: RunSetup, solution: StepSolution) -> float:
     """Work of the jump that every run starts with [J]."""
-    law = run.law
-    gained = 0.0 if law is None else transient.adhesion_energy(law, run.grid, solution.gap)
-    return run.problem.compliance.instant * solution.energy - gained
+    return run.problem.compliance.instant * solution.energy - solution.adhesion_energy
 
 
 def work_of_step(
@@ -26,7 +24,7 @@ def work_of_step(
     """Work over a step [J]: exact while the load is held, and for all that is elastic."""
     travel = solution.motion - before.motion
     of_load = float((before.resultants + solution.resultants) @ travel / 2)
-    if held or run.law is not None:
+    if held or (run.law is not None and not _gives_back(run, run.law, solution)):
         return of_load
     # Where the load moves, force times approach is not exact, as an elastic contact's force is
     # no straight function of its approach; a cycle in long steps would gain energy. Mean
@@ -35,7 +33,9 @@ def work_of_step(
     mean = (before.pressure + solution.pressure) / 2
     moved = solution.displacement - before.displacement
     work = float(np.einsum("ij,ij->", mean, moved)) * run.grid.cell_area
-    if not run.problem.motion.stands:
+    # The attraction does the work that separating the surfaces takes less.
+    work += before.adhesion_energy - solution.adhesion_energy
+    if not run.problem.motion.stands or run.law is not None:
         return work
     # Where the body creeps much within a step, pressure moves on while the load hardly does. By
     # the means of the loads the work errs by at most half the product of both changes, for an
@@ -46,3 +46,11 @@ def work_of_step(
     part = MOST_WHERE_APART if apart else MOST_OF_CHANGES
     most = part * abs(float(change @ travel))
     return min(max(work, of_load - most), of_load + most)
+
+
+def _gives_back(run: RunSetup, law: CohesiveLaw, solution: StepSolution) -> bool:
+    """True of a step of bodies that adhere whose work is a change of their energy."""
+    # What a jump loses is no work of the load, nor what creep does, for which means of pressure and
+    # displacement are no better than those of force and approach. Where the front of a law that
+    # ends abruptly crosses a cell, the traction is no slope of an energy.
+    return run.problem.surface.creep.is_elastic and not (solution.jumped or law.is_abrupt)

@@ -93,6 +93,9 @@ def on_full_grid(
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
     if lift is not None and trial.response.compliance > 0:
         energy += float(np.einsum("ij,ij->", found.pressure, lift)) / 2 / trial.response.compliance
+    adhesive, separating = trial.adhesive, 0.0
+    if adhesive is not None:
+        separating = float(adhesive.problem.law.energy(np.maximum(solution.gap, 0.0)).sum())
     return StepSolution(
         **fields,
         in_contact=in_contact,
@@ -106,6 +109,8 @@ def on_full_grid(
         outcome=trial.outcome,
         resolved=all(term.resolved for term in trial.response.terms),
         stability=stability,
+        adhesion_energy=separating * cell_area,
+        jumped=adhesive is not None and adhesive.jumped,
         time_error=time_error,
         heat=loss[0],
         power=loss[1],

@@ -33,12 +33,16 @@ from viscontact.mechanics.contact.problem import Guess
 MAX_STEPS = 20
 
 #: Reduction of the residual at which it ends [-]: far from the solution, where sets of cells still
-#: change, and from a residual of so many strengths on; of a law that ends abruptly, far from it.
-REDUCTION_AFAR, REDUCTION, NEAR, REDUCTION_ABRUPT = 7e-2, 1e-3, 1e-2, 1e-1
+#: change, and from a residual of so many strengths on.
+REDUCTION_AFAR, REDUCTION, NEAR = 7e-2, 1e-3, 1e-2
 
 #: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
 #: the largest residual.
 INNER_TOLERANCE = 1.0
+
+#: Reduction far from the solution, and that part, of a law that ends abruptly: near the end of a
+#: state, where its front holds to cells, a search finds it or not by how it errs.
+REDUCTION_ABRUPT, INNER_ABRUPT = 1e-1, 3.0
 
 #: Growth of the residual over the least one at which a search is given up [-].
 DIVERGED = 1e3
@@ -82,7 +86,9 @@ def newton_search(
     predicted = float(checked.attraction.traction.sum())
     is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
     largest = 0.0
-    sets, afar = CycleOfSets(), REDUCTION_ABRUPT if problem.law.is_abrupt else REDUCTION_AFAR
+    sets, afar, inner = CycleOfSets(), REDUCTION_AFAR, INNER_TOLERANCE
+    if problem.law.is_abrupt:
+        afar, inner = REDUCTION_ABRUPT, INNER_ABRUPT
     for step in range(max_steps + 1):
         if is_guess and (checked.error <= tolerance or step == max_steps):
             domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
@@ -97,7 +103,7 @@ def newton_search(
             break
         system = LinearStep.of(problem, domain, iterate, checked, tolerance)
         reduction = REDUCTION if checked.error <= NEAR else afar
-        motion = system.solve(iterate, reduction, INNER_TOLERANCE * tolerance)
+        motion = system.solve(iterate, reduction, inner * tolerance)
         iterate, is_guess = Guess(iterate.values, motion), system.is_whole
         if not is_guess:
             domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
