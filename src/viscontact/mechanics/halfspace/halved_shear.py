@@ -24,6 +24,7 @@ from viscontact.mechanics.halfspace.shear_filter import (
     inverse_of_mean,
     inverse_waves,
     keep,
+    size_of,
     wrapped,
 )
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
@@ -69,12 +70,12 @@ class HalvedShearFilter(PairFilter):
         """The pair of fields of another pair, in the precision of the filter."""
         (nx, ny), transforms, axis = self.shape, self._transforms, self._axis
         other = 1 - axis
-        size = float(np.abs(fields).max(initial=0.0)) or 1.0
+        size = size_of(fields)
         padded = self._kept((2, *self._lengths), self._number)
         lines = padded[(slice(None), *part_along(other, slice((nx, ny)[other])))]
         cells = lines[:, :nx, :ny]
-        np.divide(fields, size, out=cells, casting="same_kind")
-        cells *= self._signs
+        signs = self._signs if size == 1 else self._signs / np.float64(size)
+        np.multiply(fields, signs, out=cells, casting="same_kind")
         lines[(slice(None), *part_along(axis, slice((nx, ny)[axis], None)))] = 0
         keep(lines, transforms.cosine_forward(lines, 1 + axis))
         padded[(slice(None), *part_along(other, slice((nx, ny)[other], None)))] = 0

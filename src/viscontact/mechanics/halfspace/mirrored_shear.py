@@ -24,6 +24,7 @@ from viscontact.mechanics.halfspace.shear_filter import (
     inverse_of_mean,
     inverse_waves,
     keep,
+    size_of,
 )
 from viscontact.mechanics.halfspace.shear_influence import ShearTables
 
@@ -59,12 +60,12 @@ class MirroredShearFilter(PairFilter):
     def apply(self, fields: Numbers) -> Numbers:
         """The pair of fields of another pair, in the precision of the filter."""
         (nx, ny), transforms = self.shape, self._transforms
-        size = float(np.abs(fields).max(initial=0.0)) or 1.0
+        size = size_of(fields)
         padded = self._kept((2, *self._lengths), self._number)
         lines = padded[:, :nx]
         cells = lines[..., :ny]
-        np.divide(fields, size, out=cells, casting="same_kind")
-        cells *= self._signs
+        signs = self._signs if size == 1 else self._signs / np.float64(size)
+        np.multiply(fields, signs, out=cells, casting="same_kind")
         lines[..., ny:] = 0
         keep(lines, transforms.cosine_forward(lines, 2))
         padded[:, nx:] = 0
@@ -72,7 +73,8 @@ class MirroredShearFilter(PairFilter):
         self._multiply(padded)
         keep(padded, transforms.cosine_inverse(padded, 1))
         keep(lines, transforms.cosine_inverse(lines, 2))
-        return np.asarray(cells * self._number.type(size) * self._signs)
+        signs = self._signs if size == 1 else self._signs * self._number.type(size)
+        return np.asarray(cells * signs)
 
     def _multiply(self, spectrum: Numbers) -> None:
         """Multiply the spectra of both components by the matrices."""
@@ -80,7 +82,11 @@ class MirroredShearFilter(PairFilter):
         x, y = spectrum
         # Waves that have cosines and sines are in reverse order in the other component.
         shared_x, shared_y = x[1:, 1:], y[:0:-1, :0:-1]
-        along_x, along_y = xy * shared_y, xy * shared_x
+        along = self._kept((2, *xy.shape), self._number)
+        along_x, along_y = (
+            np.multiply(xy, each, out=into)
+            for each, into in zip((shared_y, shared_x), along, strict=True)
+        )
         x *= xx
         y *= yy
         shared_x += along_x

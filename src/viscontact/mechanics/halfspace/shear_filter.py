@@ -96,7 +96,7 @@ class ShearFilter(PairFilter):
         (nx, ny), transforms = self.shape, self._transforms
         along, across = self._lengths
         # In single precision, with its few exponents, fields are transformed at order one.
-        size = float(np.abs(fields).max(initial=0.0)) or 1.0
+        size = size_of(fields)
         padded = self._kept((2, nx, across), self._number)
         np.divide(fields, size, out=padded[..., :ny], casting="same_kind")
         padded[..., ny:] = 0
@@ -116,6 +116,13 @@ class ShearFilter(PairFilter):
         keep(spectrum, transforms.complex_inverse(spectrum, 1))
         found = transforms.real_inverse(lines, padded, 2)[..., :ny]
         return np.asarray(found * self._number.type(size))
+
+
+def size_of(fields: Numbers) -> float:
+    """Size that fields are transformed at order one by; those in single precision are so."""
+    if fields.dtype == np.float32:
+        return 1.0
+    return float(np.abs(fields).max(initial=0.0)) or 1.0
 
 
 def in_single(numbers: Numbers) -> Numbers:

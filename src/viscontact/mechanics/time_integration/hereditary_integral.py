@@ -44,6 +44,11 @@ class HereditaryResponse:
             return self.fields[0]
         return self.team.weighted_sum(np.empty(self.shape), self.weights, self.fields)
 
+    def history_on(self, cut: tuple[slice, slice]) -> Floats:
+        """Displacement of some rows and columns from all earlier steps."""
+        parts = zip(self.weights, self.fields, strict=True)
+        return np.asarray(sum(weight * field[..., *cut] for weight, field in parts))
+
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the field."""

@@ -73,7 +73,7 @@ class ShearStep:
         for weights, response, before in zip(
             self.shear.weights, self.responses, self.before, strict=True
         ):
-            change = response.history[:, *cut] - before[:, *cut]
+            change = response.history_on(cut) - before[:, *cut]
             if change.any():
                 found += parts.sum_of(*weights).apply(change)
         return found

@@ -121,13 +121,14 @@ class SlipState:
         """State after a step in contact, of a body that moves over the surface or stands."""
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
-        mean = coefficient * (self.contact.pressure + contact.pressure) / 2
-        lost = mean * lengths(step.slip)
+        lost = lengths(step.slip)
+        lost *= self.contact.pressure + contact.pressure
+        lost *= coefficient / 2
         if moves:
             lost += self._lost_on_leaving(contact, step, coefficient)
         return SlipState(
             step.traction,
-            np.where(contact.in_contact, self.slip + step.slip, 0.0),
+            (self.slip + step.slip) * contact.in_contact,
             self.work + lost,
             contact,
             self.touched | contact.in_contact,

@@ -90,9 +90,7 @@ def _largest(pairs: Floats, cells: Bools | bool = True) -> float:
     """Largest length of pairs in some cells."""
     x, y = pairs
     squares = x * x + y * y
-    if cells is not True:
-        squares *= cells
-    return math.sqrt(float(squares.max()))
+    return math.sqrt(float((squares if cells is True else squares * cells).max()))
 
 
 def _product(one: Floats, other: Floats) -> float:

@@ -18,11 +18,10 @@ class RigidShift:
     modes: tuple[bool, bool, bool] = (True, True, True)  # motions that cells and images have
 
     def field(self, motion: Numbers) -> Floats:
-        """Displacement of the cells by a motion [m], shape (2, nx, ny); not to be written to."""
-        shape = (2, self.x.shape[0], self.y.shape[1])
+        """Displacement of the cells by a motion [m], (2, nx, ny); without rotation (2, 1, 1)."""
         if not motion[2]:
-            return np.broadcast_to(np.reshape(motion[:2], (2, 1, 1)), shape)
-        found = np.empty(shape)
+            return motion[:2, None, None]
+        found = np.empty((2, self.x.shape[0], self.y.shape[1]))
         found[0] = motion[0] - motion[2] * self.y
         found[1] = motion[1] + motion[2] * self.x
         return found
