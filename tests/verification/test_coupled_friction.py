@@ -182,8 +182,8 @@ def test_a_mirror_plane_changes_nothing_but_the_time(along, monkeypatch):
         )
 
     mirrored, loads = marched(), []
-    whole_of = setup._mirrored
-    monkeypatch.setattr(setup, "_mirrored", lambda *what: loads.append(whole_of(*what)) or NOWHERE)
+    whole_of = setup._even
+    monkeypatch.setattr(setup, "_even", lambda *what: loads.append(whole_of(*what)) or NOWHERE)
     whole = marched()
     assert loads[0] == (
         "force_x" not in along and "displacement_x" not in along,
