@@ -163,7 +163,7 @@ def test_onset_of_rolling_has_the_creepages_of_contact(monkeypatch, steps):
     """All printed digits, with new cells held from the begin of their step, as they are there."""
 
     def held(contact: Any, before: Any, *given: Any, **options: Any) -> Any:
-        return np.zeros((3, *before.gap.shape))
+        return np.zeros((3, *before.gap[options["cut"]].shape))
 
     monkeypatch.setattr(slip_step, "entry_compliance", held)
     states = cattaneo_to_carter(steps)

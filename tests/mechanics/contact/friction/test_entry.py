@@ -48,6 +48,21 @@ def sphere_on(grid, part):
     return pressure, np.maximum(gap, 0.0)
 
 
+def test_entries_of_a_part_of_the_grid_are_those_of_all_of_it():
+    """With the edge and the area of the whole contact, which the part does not hold."""
+    grid, pressure = hertz(12)
+    before, gap = sphere_on(grid, 0.6)
+    contacts = (
+        NormalContact(pressure, 0 * gap, pressure > 0),
+        NormalContact(before, gap, before > 0),
+    )
+    cut = slice(3, 9), slice(7, None)
+    whole = entry_compliance(*contacts, grid.cell_size, 0.5)
+    part = entry_compliance(*contacts, grid.cell_size, 0.5, cut=cut)
+    assert np.count_nonzero(part[0]) > 10
+    np.testing.assert_array_equal(part, whole[:, *cut])
+
+
 @pytest.mark.parametrize("kappa", KAPPAS)
 def test_a_first_oblique_load_sticks_everywhere(kappa):
     """q = κ p and δ_t = part (1 + κ/2) a²/R, whatever ν: Mindlin and Deresiewicz 1953, case 1."""
