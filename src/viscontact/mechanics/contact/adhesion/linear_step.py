@@ -30,6 +30,9 @@ SPARE = 2
 #: Attraction below this part of the tolerance is no unknown [-].
 NEGLIGIBLE_SHARE = 1e-2
 
+#: Nothing that is lacking, and no motion; not to be written to.
+NO_MOTION = np.zeros(3)
+
 
 class LinearStep:
     """Linear equations of one Newton step on a patch, of all cells: those left alone keep p."""
@@ -58,6 +61,7 @@ class LinearStep:
         self.is_whole = whole_x and whole_y
         compliance, spacing = problem.contact.compliance, float(np.sqrt(patch.cell_area))
         self._free, self._compliance = problem.contact.constraints.free, compliance
+        self._is_free = bool(self._free.any())
         self._contact = np.flatnonzero(contact)
         slope = np.where(pulled, compliance * checked.attraction.slope, 0.0).astype(np.float32)
         self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
@@ -72,6 +76,8 @@ class LinearStep:
         self._open = np.ones(patch.shape, np.float32)
         self._open.ravel()[self._contact] = 0.0
         self._closed = 1 - self._open
+        #: What its equation takes the gap of a cell in contact by, inverted; 0 elsewhere [m].
+        self._lifting = self._closed * np.float32(1 / self._weight)
         #: Equations of cells whose attraction grows with the gap are stiff [-].
         self._softened = self._open
         if problem.law.decreasing is not problem.law:
@@ -82,7 +88,7 @@ class LinearStep:
             np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
         ]
         self._lacking = lacking / patch.cell_area
-        if self._free.any():
+        if self._is_free:
             self._balance(problem.spring / patch.cell_area)
 
     def _balance(self, spring: float) -> None:
@@ -154,7 +160,7 @@ class LinearStep:
         goal = max(reduction * norm(left), tolerance * self._scale)
         if self._lacking.any():
             left, weights = left - image(right, self._lacking), [1.0]
-        factors, _ = gmres(lambda vector: image(vector, np.zeros(3)), left, goal, MAX_VECTORS)
+        factors, _ = gmres(lambda vector: image(vector, NO_MOTION), left, goal, MAX_VECTORS)
 
         motion, part = iterate.motion, spare(0)
         change, lifted = np.zeros((2, *right.shape), np.float32)
@@ -171,8 +177,8 @@ class LinearStep:
     def _direction(self, vector: Singles, lacking: Floats, into: Singles) -> Floats:
         """Preconditioned change of pressure [Pa] and of the motion for a residual [Pa]."""
         change = self._preconditioned(vector, into)
-        if not self._free.any():
-            return np.zeros(3)
+        if not self._is_free:
+            return NO_MOTION
         sums = self._patch.plane.sums(change)
         motion = self._inverse @ np.where(self._free, lacking - sums, 0.0)
         for amount, share in zip(motion, self._shares, strict=True):
@@ -183,7 +189,7 @@ class LinearStep:
     def _image(self, change: Singles, lifted: Singles, motion: Floats, into: Singles) -> None:
         """Left sides of the equations for a change [Pa] and its unit displacement [Pa m]."""
         opened, part = lifted, self._patch.operators.spare(0)
-        if motion.any():
+        if self._is_free and motion.any():
             plane = self._patch.plane.field(motion / self._compliance, np.float32)
             opened = np.subtract(lifted, plane, out=self._patch.operators.spare(1))
         np.multiply(opened, self._of_gap, out=into)
@@ -196,8 +202,7 @@ class LinearStep:
         """About the pressure that a residual calls for [Pa]."""
         np.multiply(vector, self._softened, out=into)
         if self._contact.size:
-            field = np.multiply(vector, self._closed, out=self._patch.operators.spare(0))
-            field *= np.float32(1 / self._weight)
+            field = np.multiply(vector, self._lifting, out=self._patch.operators.spare(0))
             self._patch.preconditioner.apply(field, into=field)
             field *= self._closed
             into += field

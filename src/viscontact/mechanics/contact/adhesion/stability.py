@@ -51,7 +51,7 @@ REDUCTION_RISING, LARGEST_REDUCTION_RISING = 0.3, 0.5
 
 #: Reduction of the residual of a system whose solution is about known, and part of the work of a
 #: change that its contact yields at most; the error of the factor is about half of that.
-REDUCTION_CARRIED, LARGEST_YIELD, TRIALS = 0.3, 0.04, 4
+REDUCTION_CARRIED, LARGEST_YIELD, TRIALS = 0.3, 0.1, 4
 
 #: Slopes below this part of the largest one are none [-].
 NEGLIGIBLE_SLOPE = 1e-6
@@ -223,9 +223,27 @@ class _Held:
             yielded = (found.pressure.pressure * found.opened).ravel()[touching]
             if is_balanced and np.abs(yielded).sum() <= LARGEST_YIELD * work:
                 break
-            start = Guess(found.pressure.values, found.pressure.motion * self._compliance)
-            found, is_balanced = self._solved(start, change, falls, (REDUCTION_CARRIED, 0.0)), True
+            if self._free.any():
+                start = Guess(found.pressure.values, found.pressure.motion * self._compliance)
+                found = self._solved(start, change, falls, (REDUCTION_CARRIED, 0.0))
+            else:
+                found = self._descended(found, falls)
+            is_balanced = True
         return found
+
+    def _descended(self, found: _Answer, falls: Floats) -> _Answer:
+        """Answer whose contact yields less: to the least energy along the preconditioned yield."""
+        whole = self.domain.whole
+        values = found.pressure.values
+        yielded = np.where(self.in_contact, values[1], 0.0).astype(np.float32)
+        way = np.empty((2, *yielded.shape), np.float32)
+        whole.preconditioner.apply(yielded, into=way[0])
+        way[0] *= self.in_contact
+        whole.convolution.apply(way[0], into=way[1])
+        slope, bend = (float(np.einsum("ij,ij->", way[0], each)) for each in (yielded, way[1]))
+        if bend > 0:
+            values = values - (slope / bend) * way
+        return self.answer(Guess(values, found.pressure.motion), falls)
 
     @property
     def _free(self) -> Bools:
