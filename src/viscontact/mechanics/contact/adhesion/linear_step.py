@@ -116,9 +116,11 @@ class LinearStep:
         """Step from an iterate, on the patch around the cells that bear traction."""
         scale = problem.traction_scale(iterate)
         least = NEGLIGIBLE_SHARE * tolerance * scale
-        active = checked.in_contact | (np.abs(checked.attraction.traction) > least)
-        active |= iterate.pressure != 0
-        patch = domain.patch_around(active)
+        patch, pulled = domain.whole, ~checked.in_contact
+        if not _reaches_all_edges(checked.attraction.traction, least):
+            active = checked.in_contact | (np.abs(checked.attraction.traction) > least)
+            active |= iterate.pressure != 0
+            patch, pulled = domain.patch_around(active), pulled & active
         cut = AdhesiveResidual(
             patch.cut(checked.gap),
             type(checked.attraction)(
@@ -129,7 +131,7 @@ class LinearStep:
             patch.cut(checked.in_contact),
             *(checked.of_gap, checked.of_traction, checked.imbalance),
         )
-        cells = cut.in_contact, patch.cut(active & ~checked.in_contact)
+        cells = cut.in_contact, patch.cut(pulled)
         lacking = problem.lacking(iterate, domain)
         displacement = problem.displacement(iterate, math.sqrt(patch.cell_area))
         return cls(problem, domain, patch, cells, cut, lacking, (scale, displacement))
@@ -216,3 +218,9 @@ class LinearStep:
         if self._contact.size:
             pressed *= self._closed
         return self._preconditioned(pressed.astype(np.float32), np.empty_like(self._open))
+
+
+def _reaches_all_edges(traction: Floats, least: float) -> bool:
+    """True if a traction above a least one reaches each edge of its field [Pa]."""
+    edges = traction[0], traction[-1], traction[:, 0], traction[:, -1]
+    return all(float(each.max()) > least for each in edges)
