@@ -43,15 +43,14 @@ def _curves(
     length, quantity = maps.axes(look.unit)[0].unit, lines.axis(look.unit)
     position, unit = length(lines.positions[within]), quantity.unit
     hover = f"{lines.along} %{{x:.4g}} {length.symbol}: %{{y:.4g}} {unit.symbol}"
+    names = zip(labels_of(maps.snapshots), look.instants(len(maps.maps)), strict=True)
     thin = [
         {
             **{"x": numbers(position), "y": numbers(unit(values[within])), "mode": "lines"},
             **{"name": label, "opacity": 0.55, "line": {"color": colour, "width": 1}},
             "hovertemplate": hover,
         }
-        for values, label, colour in zip(
-            lines.values, labels_of(maps.snapshots), look.instants(len(maps.maps)), strict=True
-        )
+        for values, (label, colour) in zip(lines.values, names, strict=True)
     ]
     styles: list[Part] = [{"x": numbers(position), "line": {"color": look.blue, "width": 2.6}}]
     if others is not None:
@@ -71,22 +70,23 @@ def _curves(
             parts.append({"x": length(lines.edges[index] or []).tolist()})
         frames.append(_frame(index, len(thin), parts, lines.name, titles[index]))
     start = frames[maps.start]
-    ends = [end.place for end in maps.ends if lines.along == "x"]
-    dotted = {"color": look.faint, "width": 1.2, "dash": "dot"}
-    marks: list[Part] = [
-        {"type": "line", "x0": at, "x1": at, "y0": 0, "y1": 1, "yref": "paper", "line": dotted}
-        for at in length(np.array(ends)).tolist()
-    ]
-    shapes: Part = {"shapes": marks} if marks else {}
     return drawn(
         [*thin, *(style | part for style, part in zip(styles, start["data"], strict=True))],
         look,
         **start["layout"],
         frames=frames,
-        **shapes,
+        **(_marks_of_ends(maps, look, length) if lines.along == "x" else {}),
         xaxis={"title": {"text": length.label(lines.along)}, "range": position[[0, -1]].tolist()},
         yaxis={"title": {"text": quantity.label}, "rangemode": "tozero"},
     )
+
+
+def _marks_of_ends(maps: Maps, look: Look, length: ReadableUnit) -> Part:
+    """Dotted lines where bodies end along x."""
+    dotted = {"color": look.faint, "width": 1.2, "dash": "dot"}
+    line: Part = {"type": "line", "y0": 0, "y1": 1, "yref": "paper", "line": dotted}
+    places = length(np.array([end.place for end in maps.ends])).tolist()
+    return {"shapes": [line | {"x0": at, "x1": at} for at in places]} if places else {}
 
 
 def _frame(index: int, first: int, parts: list[Part], name: str, title: str) -> Part:

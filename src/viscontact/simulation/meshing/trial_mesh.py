@@ -182,6 +182,18 @@ def _end_excess(found: _TrialSolution) -> Floats:
     return 1 - np.array(farther) / peak
 
 
+def _domain_on(pressing: ElasticContact, grid: Grid, open_gap: Floats) -> ContactDomain:
+    """Domain of a contact on one mesh, of what shape and load leave independent."""
+    point = pressing.point
+    even_load = (
+        has_even_ends(pressing.response) and not (point.eccentricity_x or point.tilt_x),
+        not (point.eccentricity_y or point.tilt_y),
+    )
+    even = even_axes(grid, open_gap, even_load)
+    mirrored = mirrored_axes(grid, even)
+    return ContactDomain(grid, response=pressing.response, mirrored=mirrored, even_rows=even[0])
+
+
 def _solve_on(
     pressing: ElasticContact,
     grid: Grid,
@@ -191,23 +203,9 @@ def _solve_on(
     """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
     indenter, point = pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    even_load = (
-        has_even_ends(pressing.response) and not (point.eccentricity_x or point.tilt_x),
-        not (point.eccentricity_y or point.tilt_y),
-    )
-    even = even_axes(grid, open_gap, even_load)
+    domain = _domain_on(pressing, grid, open_gap)
     found = elastic_contact(
-        open_gap,
-        pressing.compliance,
-        point,
-        ContactDomain(
-            grid,
-            response=pressing.response,
-            mirrored=mirrored_axes(grid, even),
-            even_rows=even[0],
-        ),
-        tolerance=tolerance,
-        start=start,
+        *(open_gap, pressing.compliance, point, domain), tolerance=tolerance, start=start
     )
     rim = trace_rim(grid, found.in_contact, found.gap, trace_outline(indenter, grid))
     extents, tiny = np.array([rim.length, rim.width]), np.full(len(MESH_QUANTITIES), TINY)
