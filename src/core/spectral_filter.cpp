@@ -70,6 +70,14 @@ FOR_WIDE_PROCESSORS void columns_there(const Axis<Real> &axis, const Field<Given
         else
             to_reals(a, b, one, one + waves.imaginary);
     }
+    // Columns beyond the field would bring their rounding back, of numbers without the symbol.
+    const std::ptrdiff_t count = field.columns - column;
+    for (std::ptrdiff_t k = 0; count < N && k < axis.waves(); ++k) {
+        std::fill(to + k * waves.distance + count, to + k * waves.distance + N, Real(0));
+        if (axis.even) continue;
+        Real *imaginary = to + k * waves.distance + waves.imaginary;
+        std::fill(imaginary + count, imaginary + N, Real(0));
+    }
 }
 
 template <class Real, class Found>

@@ -115,6 +115,31 @@ def test_a_filter_is_the_product_of_the_whole_spectrum_and_the_symbol(
     assert np.abs(found - expected).max() <= rounding
 
 
+@settings(max_examples=100, deadline=None)
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    lengths=pairs,
+    even=evens,
+    parts=st.tuples(*[st.sampled_from([0.0, 0.3, 0.5, 0.7, 1.0])] * 2),
+    single=st.booleans(),
+)
+@example(seed=1, lengths=(90, 75), even=(False, False), parts=(0.5, 0.5), single=True)
+def test_units_of_a_symbol_and_a_field_change_no_bit(
+    seed: int,
+    lengths: tuple[int, int],
+    even: tuple[bool, bool],
+    parts: tuple[float, float],
+    single: bool,
+) -> None:
+    """What is left by rounding before the product with the symbol does not get into the result."""
+    field, symbol = fields(seed, lengths, even, parts)
+    given: Any = field.astype(np.float32 if single else np.float64)
+    unit, other = given.dtype.type(2.0**-40), given.dtype.type(2.0**20)
+    found = made(field.shape, lengths, even, symbol, single=single).apply(given, None, None)
+    small = made(field.shape, lengths, even, symbol * unit, single=single)
+    assert (small.apply(other * given, None, None) == unit * other * found).all()
+
+
 @pytest.mark.parametrize("even", [(False, False), (False, True), (True, False), (True, True)])
 @pytest.mark.parametrize("single", [False, True])
 def test_threads_do_not_change_a_bit(even: tuple[bool, bool], single: bool) -> None:

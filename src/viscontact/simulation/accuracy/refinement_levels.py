@@ -170,9 +170,20 @@ def _windows(values: Numbers, reach: int) -> Floats:
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 
+def _moving(choice: np.ufunc, values: Numbers, reach: int) -> Floats:
+    """Choice among the values in the window around each time."""
+    # Shift by shift, in half the time of a view of windows: it is done 80 times in a run.
+    given = np.asarray(values, dtype=float)
+    found = given.copy()
+    for shift in range(1, reach + 1):
+        choice(found[shift:], given[:-shift], out=found[shift:])
+        choice(found[:-shift], given[shift:], out=found[:-shift])
+    return found
+
+
 def moving_maximum(values: Numbers, reach: int = WINDOW_STEPS) -> Floats:
     """Maximum over a window of `reach` times on both sides; NaN where all are NaN."""
-    return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
+    return _moving(np.fmax, values, reach)
 
 
 def between_known(values: Floats) -> Floats:
@@ -206,7 +217,7 @@ def quotient(error: Floats, scale: Floats) -> Floats:
 
 def moving_minimum(values: Numbers) -> Floats:
     """Minimum over a window of times; NaN where all are NaN."""
-    return np.asarray(np.fmin.reduce(_windows(values, WINDOW_STEPS), axis=1))
+    return _moving(np.fmin, values, WINDOW_STEPS)
 
 
 def moving_mean(values: Floats) -> Floats:
