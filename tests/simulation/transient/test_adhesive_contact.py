@@ -116,7 +116,7 @@ def test_work_of_a_cycle_in_few_steps_is_the_area_between_its_ways(tabor, since)
     # Between its jumps the elastic sphere goes back on its way: the force of both ways, at many
     # approaches around the jumps, encloses what is lost, a hundredth of π w R times the unit of
     # approach at a Tabor number of 1. No energy enters into that.
-    levels, where = np.array([-2.2, 0.8, -2.2]) * DEPTH, grid(72, 9.0)
+    levels, where = np.array([-2.2, 0.8, -2.2]) * DEPTH, grid(80, 9.0)
     given = SPHERE, GEL, vc.ApproachHistory([0.0, 1.0, 2.0], levels), where
     other = {"adhesion": vc.Adhesion(WORK, range=RANGE / tabor), "errors": False, "fields": "none"}
     few = vc.simulate(*given, [0.0, 1.0, 2.0], **other)

@@ -78,7 +78,7 @@ class AdhesiveStep:
     outcome: Outcome
     change: float  # inf of a jump [-]
     is_too_long: bool = False  # not solved, as a shorter one has to be taken
-    jumped: bool = False  # found by descent
+    jumped: bool = False  # found by descent, or in a step so short that it may pass a jump
 
 
 class AdhesiveContact:
@@ -121,7 +121,8 @@ class AdhesiveContact:
             change = self._length(near, predicted, smooth=step.smooth) if is_near else math.inf
             jumps = not near.converged or self._change(near) > JUMP
             if change <= self._longest_kept(near) or (step.is_shortest and not jumps):
-                return AdhesiveStep(problem, near, _outcome(near), min(change, 1.0))
+                outcome, length = _outcome(near), min(change, 1.0)
+                return AdhesiveStep(problem, near, outcome, length, jumped=step.is_shortest)
             if not is_last:
                 return AdhesiveStep(problem, near, _outcome(near), change, is_too_long=True)
         return self._jumped(problem)

@@ -32,6 +32,10 @@ TRIED_STEPS, LAST_STEPS = 12, 60
 #: has hardly come nearer, but for the front of a law that ends abruptly, which is found late.
 NEAR_STEPS, NEAR_TRIED = 8, 4
 
+#: Reduction of the residual by the first steps of a search from an extrapolated guess, where few
+#: sets change [-].
+REDUCTION_NEAR = 0.05
+
 #: Fall of the changes of a descent from which on Newton's method is tried again [-].
 FALLEN = 1e-2
 
@@ -51,7 +55,8 @@ def solve_near(
     steps, tried = (MAX_STEPS, None) if is_last else (NEAR_STEPS, NEAR_TRIED)
     if problem.law.is_abrupt:
         tried = None
-    found = newton_search(problem, domain, guess, tolerance, steps, tried_steps=tried)
+    given = problem, domain, guess, tolerance, steps
+    found = newton_search(*given, tried_steps=tried, afar=REDUCTION_NEAR)
     return _solution(problem, found, 0)
 
 

@@ -75,6 +75,7 @@ def newton_search(
     max_steps: int = MAX_STEPS,
     *,
     tried_steps: int | None = None,
+    afar: float = REDUCTION_AFAR,
 ) -> NewtonSearch:
     """Search from a pressure, whose memory is used, until the residual meets the tolerance.
 
@@ -86,7 +87,7 @@ def newton_search(
     predicted = float(checked.attraction.traction.sum())
     is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
     largest = 0.0
-    sets, afar, inner = CycleOfSets(), REDUCTION_AFAR, INNER_TOLERANCE
+    sets, inner = CycleOfSets(), INNER_TOLERANCE
     if problem.law.is_abrupt:
         afar, inner = REDUCTION_ABRUPT, INNER_ABRUPT
     for step in range(max_steps + 1):

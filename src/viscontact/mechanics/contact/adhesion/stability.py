@@ -33,7 +33,7 @@ from viscontact.mechanics.contact.rigid_balance import Constraints
 #: Vectors of the Rayleigh-Ritz method for a law that decreases, and for one that rises first; each
 #: costs the solution of a linear system. Under a law that decreases they leave an error below a
 #: percent of spheres, the change of the state before mostly one of up to two; on a rough surface,
-#: where many places compete, the factor is up to 17 % too small, 2 % in the median. Under one that
+#: where many places compete, the factor is up to 18 % too small, 3 % in the median. Under one that
 #: rises first, changes of a ring compete: the factor of a sphere is up to 15 % too small near its
 #: jumps and 40 % between them, and more where the search begins with the change before.
 VECTORS, VECTORS_RISING = 2, 4
