@@ -55,6 +55,15 @@ def test_stability_from_the_change_of_the_state_before_is_that_from_none(law):
         assert continued == close_to(factor, rel=2e-2)
 
 
+def test_stability_does_without_a_change_of_cells_that_the_front_has_left():
+    # Dugdale's attraction falls at its front alone, which is elsewhere after a long way.
+    sphere = Sphere("dugdale", 1.0, 64, 6.0)
+    known = stability(sphere.problem(approach=5.0), sphere.domain, sphere.contact(approach=5.0))[1]
+    given = sphere.problem(approach=-0.5), sphere.domain, sphere.contact(approach=-0.5)
+    left, right = stability(*given)[0], stability(*given, known)[0]
+    assert right == close_to(left, rel=2e-2)
+
+
 def test_bodies_far_apart_are_stable():
     sphere = Sphere("dugdale", 0.5, 16, 5.0)
     apart = sphere.contact(approach=-20.0)

@@ -203,7 +203,9 @@ class _Held:
         # Cells that have parted open about as far as those beside them, and those that have met
         # are pressed as those.
         opened = _filled(np.where(known.in_contact, 0.0, before.opened), known.in_contact, contact)
-        change = falls * opened if opened.any() else falls.copy()
+        change = falls * opened
+        if not change.any():  # the front of a law that ends abruptly has left all of its cells
+            change = falls.copy()
         change *= self.problem.law.strength / np.abs(change).max()
         last = np.where(known.in_contact, 0.0, known.pressure.pressure)
         scale = -np.einsum("ij,ij->", change, last) / np.einsum("ij,ij->", last, last)
