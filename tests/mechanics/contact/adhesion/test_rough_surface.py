@@ -49,10 +49,12 @@ def test_search_from_afar_finds_the_contact_of_an_accurate_one(seed, part):
     assert afar.convolutions < 0.85 * near.convolutions
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "seed", [1, *(pytest.param(k, marks=pytest.mark.slow) for k in range(2, 6))]
+)
 @pytest.mark.parametrize("part", [2.5, 2.0, 1.5, 1.0, 0.7])
 def test_contact_from_the_undeformed_bodies_takes_seventy_convolutions(seed, part):
-    # 44 to 73 on the surfaces of the seeds 1 to 5.
+    # 40 to 70 on these surfaces, 56 in the mean.
     found = contact(256, seed, part, from_afar=True)
     assert found.converged
     assert found.convolutions <= 70
