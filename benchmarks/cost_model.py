@@ -31,7 +31,7 @@ from run import reference_convolution, seconds_of
 
 import viscontact as vc
 from viscontact.backend import compiled
-from viscontact.mechanics.contact import conjugate_gradients, domain, equilibrium, winkler
+from viscontact.mechanics.contact import conjugate_gradients, domain, equilibrium, patch, winkler
 from viscontact.mechanics.halfspace import convolution, preconditioner
 from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.time_integration.internal_variables import InternalVariables
@@ -52,7 +52,7 @@ PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ("directions: project, inner products", ((conjugate_gradients.BoundedCG, "_advance"),)),
     (
         "step: move, truncate, equilibrium",
-        ((conjugate_gradients.BoundedCG, "_step"), (conjugate_gradients.BoundedCG, "__init__")),
+        ((conjugate_gradients.BoundedCG, "_take"), (conjugate_gradients.BoundedCG, "__init__")),
     ),
     ("solve: embed, verify, equilibrium", ((stepper, "solve_contact"),)),
     ("first initial guess", ((equilibrium, "winkler_contact"), (winkler, "winkler_contact"))),
@@ -121,14 +121,16 @@ def clocked(act: Callable[..., Any], part: str, clocks: Clocks) -> Callable[...,
 
 
 def _precision(operator: Any) -> str:
-    single = operator._symbol.dtype == np.float32
+    single = operator._number == np.float32
     return "single, on the patch" if single else "double, on the whole grid"
 
 
 @contextmanager
 def clocks_around_parts(clocks: Clocks) -> Iterator[None]:
     """Install the timers, and remove them at the end."""
-    before = []
+    # Not several parts in one call of the core.
+    before = [(patch.PatchOperators, "compiled", patch.PatchOperators.compiled)]
+    patch.PatchOperators.compiled = None  # type: ignore[assignment,method-assign]
     for part, functions in PARTS:
         for owner, name in functions:
             if isinstance(owner, dict) or not hasattr(owner, name):
