@@ -27,9 +27,10 @@ Advanced advance(const Plane &plane, const Operators &operators, const Iterate &
     if (released.changed > 0) follow_active(operators, of, released.changed);
     operators.preconditioner->apply(of.residual, 1, of.spare, operators.work);
     Advanced found;
-    found.slope = direct(plane, of.spare, of.direction, of.residual, of.last_residual, of.active,
-                         of.stiffness, correction, 0, released.released ? released.inverse : inverse,
-                         last_slope, released.changed > 0);
+    found.slope =
+        direct(plane, of.spare, of.direction, of.residual, of.last_residual, of.active,
+               of.stiffness, correction, 0, released.released ? released.inverse : inverse,
+               last_slope, released.changed > 0);
     const Singles &direction = of.spare, &way = of.direction;
     found.projected = trial(plane, of.pressure, direction, length, of.ahead, balances.targets,
                             balances.free, balances.cell_area, balances.arm, 1 / unit, way);

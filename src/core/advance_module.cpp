@@ -28,11 +28,13 @@ std::ptrdiff_t work_of(const viscontact::Operators &of) {
     return std::max({of.convolution->work(), of.preconditioner->work(), of.stiffness->work()});
 }
 
-std::tuple<double, bool, double, double> advance(
-    const Plane &plane, const viscontact::Operators &given, Work work, Pressures pressures,
-    Actives actives, Residuals residuals, Directions directions, Triple targets, FreeTriple free,
-    double cell_area, double arm, Entries inverse, double correction, double last_slope,
-    double length, double unit) {
+std::tuple<double, bool, double, double> advance(const Plane &plane,
+                                                 const viscontact::Operators &given, Work work,
+                                                 Pressures pressures, Actives actives,
+                                                 Residuals residuals, Directions directions,
+                                                 Triple targets, FreeTriple free, double cell_area,
+                                                 double arm, Entries inverse, double correction,
+                                                 double last_slope, double length, double unit) {
     if (given.convolution->first().cells != plane.rows() ||
         given.convolution->second().cells != plane.columns())
         throw std::invalid_argument("the operators are those of another patch");
@@ -45,9 +47,9 @@ std::tuple<double, bool, double, double> advance(
     const auto &[residual, last_residual] = residuals;
     const auto &[direction, spare, change, stiffness] = directions;
     const viscontact::Iterate of{
-        field(plane, pressure),  field(plane, ahead),         field(plane, active),
-        field(plane, last),      field(plane, residual),      field(plane, last_residual),
-        field(plane, direction), field(plane, spare),         field(plane, change),
+        field(plane, pressure),  field(plane, ahead),    field(plane, active),
+        field(plane, last),      field(plane, residual), field(plane, last_residual),
+        field(plane, direction), field(plane, spare),    field(plane, change),
         field(plane, stiffness),
     };
     const viscontact::Balances balances{motion(targets), free_of(free), cell_area, arm};
@@ -62,9 +64,8 @@ void define_advance(nb::module_ &module) {
     nb::class_<viscontact::Operators>(module, "Operators")
         .def(
             "__init__",
-            [](viscontact::Operators *self, const Filter &convolution,
-               const Filter &preconditioner, const Filter &stiffness, Near near,
-               std::ptrdiff_t few) {
+            [](viscontact::Operators *self, const Filter &convolution, const Filter &preconditioner,
+               const Filter &stiffness, Near near, std::ptrdiff_t few) {
                 new (self) viscontact::Operators(
                     operators(convolution, preconditioner, stiffness, near, few));
             },

@@ -27,12 +27,12 @@ void apply(const SpectralFilter<Real> &filter, Array<const Given> given, double 
 template <class Real>
 nb::class_<SpectralFilter<Real>> define_filter(nb::module_ &module, const char *name) {
     return nb::class_<SpectralFilter<Real>>(module, name)
-        .def("__init__",
-             [](SpectralFilter<Real> *self, std::tuple<int, int> cells,
-                std::tuple<int, int> lengths, std::tuple<bool, bool> even,
-                Array<const double> symbol, int threads) {
-                 new (self) SpectralFilter<Real>(made<Real>(cells, lengths, even, symbol, threads));
-             })
+        .def(
+            "__init__",
+            [](SpectralFilter<Real> *self, std::tuple<int, int> cells, std::tuple<int, int> lengths,
+               std::tuple<bool, bool> even, Array<const double> symbol, int threads) {
+                new (self) SpectralFilter<Real>(made<Real>(cells, lengths, even, symbol, threads));
+            })
         .def_prop_ro("work", &SpectralFilter<Real>::work)
         .def(
             "read_symbol",

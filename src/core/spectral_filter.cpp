@@ -56,8 +56,7 @@ FOR_WIDE_PROCESSORS void columns_there(const Axis<Real> &axis, const Field<Given
     for (std::ptrdiff_t i = 0; i < axis.cells; ++i)
         load(field.row(i) + column, field.columns - column, size, in + axis.place(i) * N);
     for (std::ptrdiff_t i = axis.cells; i < axis.given(); ++i) clear(in + axis.place(i) * N);
-    const Real *found =
-        transform(axis.there, in, buffers.second, buffers, axis.data, Part::ALL);
+    const Real *found = transform(axis.there, in, buffers.second, buffers, axis.data, Part::ALL);
     Real *to = waves.first + column;
     if (axis.even) std::copy(found, found + N, to);
     for (std::ptrdiff_t k = axis.even; 2 * k <= length; ++k) {
@@ -99,8 +98,7 @@ FOR_WIDE_PROCESSORS void columns_back(const Axis<Real> &axis, const Waves<Real> 
         else
             of_reals(one, one + waves.imaginary, in + k * N, b);
     }
-    const Real *found =
-        transform(axis.back, in, buffers.second, buffers, Part::ALL, axis.data);
+    const Real *found = transform(axis.back, in, buffers.second, buffers, Part::ALL, axis.data);
     for (std::ptrdiff_t i = 0; i < axis.cells; ++i)
         store(found + axis.place(i) * N, field.columns - column, static_cast<Found>(factor),
               field.row(i) + column);
@@ -222,8 +220,7 @@ FOR_WIDE_PROCESSORS void filter_rows(const Axis<Real> &axis, const Rows<Real> &r
         filter_complex(axis, symbol, given, to);
     else
         filter_reals(axis, symbol, given, to);
-    scatter(axis, rows, complex,
-            transform(axis.back, to, given, buffers, Part::ALL, axis.data));
+    scatter(axis, rows, complex, transform(axis.back, to, given, buffers, Part::ALL, axis.data));
 }
 
 }  // namespace
@@ -327,7 +324,7 @@ template struct Axis<double>;
 template class SpectralFilter<float>;
 template class SpectralFilter<double>;
 
-#define APPLY(Real, Given, Found)                                                        \
+#define APPLY(Real, Given, Found)                                                                 \
     template void SpectralFilter<Real>::apply(const Field<Given> &, double, const Field<Found> &, \
                                               Real *) const;
 APPLY(float, float, float)

@@ -45,8 +45,8 @@ template <class Real>
 class SpectralFilter {
   public:
     // The symbol has half of the entries, with the middle, along an axis that is not even.
-    SpectralFilter(const Axis<Real> &first, const Axis<Real> &second,
-                   const Field<double> &symbol, int threads);
+    SpectralFilter(const Axis<Real> &first, const Axis<Real> &second, const Field<double> &symbol,
+                   int threads);
 
     // Numbers that `apply` works in.
     std::ptrdiff_t work() const;
