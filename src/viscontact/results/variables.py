@@ -496,7 +496,10 @@ def curve_of(state: ContactState, name: str) -> Floats:
 
 
 def scalars_in(results: Any, names: Iterable[str] | None = None) -> list[str]:
-    """Names of the scalars that a result has, in their order; not what it has over the creepage."""
+    """Names of the scalars that a result has over its run, in their order.
+
+    Not those that it has over the creepage, or of one instant only.
+    """
     names = SCALARS if names is None else names
     over = [(name, results[name].dims) for name in names if name in results]
     return [name for name, dims in over if dims and "creepage" not in dims]

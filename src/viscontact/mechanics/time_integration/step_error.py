@@ -185,7 +185,11 @@ class TimeErrors:
 
     def _growth_to_come(self, level: float) -> float:
         """Least factor by which the pressure still grows with the load."""
-        return (self._load.largest_level / level) ** LOAD_GROWTH_EXPONENT if level > 0 else 1.0
+        if level <= 0:
+            return 1.0
+        # A history of pulls alone has no level, but the approach that follows it may have one.
+        growth: float = (max(self._load.largest_level, level) / level) ** LOAD_GROWTH_EXPONENT
+        return growth
 
     def _interpolation_error(
         self,
