@@ -35,7 +35,7 @@ struct Advanced {
     double curvature, along;  // of the step: its product with its displacement, and the residual
 };
 
-// `unit` is that of pressures of directions, `length` that of a trial step, in it.
+// `unit` [Pa m] times a direction [1/m] is a pressure; `length` [Pa m] is that of a trial step.
 Advanced advance(const Plane &plane, const Operators &operators, const Iterate &of,
                  const Balances &balances, const Matrix &inverse, double correction,
                  double last_slope, double length, double unit);

@@ -6,7 +6,7 @@ import numpy as np
 
 import viscontact as vc
 from closeness import close_to
-from viscontact.mechanics.contact import cell_fields, resistance
+from viscontact.mechanics.contact import cell_fields, mirror_symmetry, resistance
 from viscontact.mechanics.contact.body_edge import trace_outline
 from viscontact.mechanics.contact.moving_domain import coarser_shape
 from viscontact.mechanics.contact.rim_extent import mean_chords
@@ -25,8 +25,8 @@ def test_heights_over_neighbours_are_zero_at_dips_and_ends():
 
 
 def test_field_is_even_if_its_halves_are_mirror_images():
-    assert cell_fields.is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0)
-    assert not cell_fields.is_even(np.array([[1.0, 2.0]]), 1)
+    assert mirror_symmetry.is_mirrored(np.array([[1.0, 2.0], [1.0, 2.0]]), 0)
+    assert not mirror_symmetry.is_mirrored(np.array([[1.0, 2.0]]), 1)
     assert resistance.is_even(np.array([[1.0, 2.0], [1.0, 2.0]])) == (True, False)
 
 

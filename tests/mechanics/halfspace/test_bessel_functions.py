@@ -17,9 +17,13 @@ def test_modified_bessel_functions_are_those_of_scipy_from_the_corner_to_far_awa
     assert order_1 == close_to(scipy.special.k1(places), rel=1e-11)
 
 
+def test_modified_bessel_functions_are_not_known_where_they_are_not_defined() -> None:
+    assert np.isnan(modified_bessel(np.array([0.0, -1.0, np.nan]))).all()
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 7, 8, 10])
 def test_spherical_bessel_functions_are_those_of_scipy_at_all_places(count: int) -> None:
     places = np.append(0.0, np.geomspace(1e-9, 1e5, 4001))
     expected = scipy.special.spherical_jn(np.arange(count), places[:, None])
-    # By power series, quadrature and recurrence, which meet at 0.7 and at the number of orders.
+    # By recurrence down and up, which meet at the number of orders.
     assert spherical_bessel(count, places) == close_to(expected, abs=1e-14)

@@ -1,4 +1,4 @@
-"""Fields on cells: mirror symmetry, and heights over the neighbouring cells."""
+"""Fields on cells: heights over the neighbouring cells."""
 
 from __future__ import annotations
 
@@ -15,8 +15,3 @@ def height_over_neighbours(gap: Floats, axis: int) -> Floats:
     mean = (lines[:-2][known] + lines[2:][known]) / 2
     out[known] = np.maximum(mean - lines[1:-1][known], 0.0) / 2
     return height
-
-
-def is_even(field: Floats, axis: int) -> bool:
-    """Test whether a field's second half mirrors its first along an axis of even number exactly."""
-    return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))

@@ -127,7 +127,11 @@ class BoundedCG:
         self._take(way)
 
     def _way(self, checked: ContactResidual) -> Way:
-        """Steps 2 to 4 by the passes: next direction, in the spare field, and step along it."""
+        """Steps 2 to 4 by the passes, and the pressure that step 5 would cut off.
+
+        The next direction comes into the spare field, and the way to a pressure that is cut off
+        and balanced in place of the last direction.
+        """
         active, residual, found = self._next_active, self._next_residual, self._spare
         # Step 2: release the cells that the body overlaps, and precondition.
         given = active, self._active, residual
@@ -187,7 +191,7 @@ class BoundedCG:
 
     @property
     def _trial_length(self) -> float:
-        """Length of a trial step [Pa]."""
+        """Length of a trial step along a direction [Pa m]."""
         return TRIAL_STEP_FACTOR * self._length * self._force_unit
 
     def _take(self, way: Way) -> None:

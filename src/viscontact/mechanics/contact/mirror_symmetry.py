@@ -23,3 +23,8 @@ def even_axes(grid: Grid, open_gap: Floats, even_load: tuple[bool, bool]) -> tup
 def mirrored_axes(grid: Grid, even: tuple[bool, bool]) -> tuple[bool, bool]:
     """Axes across which one half is computed: even ones with an even number of cells."""
     return even[0] and grid.shape[0] % 2 == 0, even[1] and grid.shape[1] % 2 == 0
+
+
+def is_mirrored(field: Floats, axis: int) -> bool:
+    """Test whether a field's second half mirrors its first along an axis of even number exactly."""
+    return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))

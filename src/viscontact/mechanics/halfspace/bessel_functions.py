@@ -43,7 +43,7 @@ def modified_bessel_0(x: Floats) -> Floats:
 
 def _of_orders(x: Floats, orders: tuple[int, ...]) -> list[Floats]:
     """K_n at places x > 0, for some of the orders 0 and 1."""
-    found = [np.empty(x.shape) for _ in orders]
+    found = [np.full(x.shape, np.nan) for _ in orders]
     least = 0.0
     for most, terms in NEAR:
         near = (x > least) & (x <= most)

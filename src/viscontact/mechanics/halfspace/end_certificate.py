@@ -33,7 +33,7 @@ ALONG, FIRST = 3, 0.05
 DECAYED = 11.0
 
 #: Decay from which on waves do not count, likewise.
-GONE = 16.0
+LARGEST_DECAY = 16.0
 
 #: Waves across the face of a body that goes on: nodes of panels, first panel, and length of panels,
 #: both over the inverse of the body's length on the grid.
@@ -72,7 +72,9 @@ class Waves:
         found = np.zeros((len(waves), len(depths)))
         for into, depth in zip(found.T, depths.tolist(), strict=True):
             # Shorter waves are gone at this depth.
-            along, across = (np.searchsorted(each, GONE / depth) for each in (waves, self.across))
+            along, across = (
+                np.searchsorted(each, LARGEST_DECAY / depth) for each in (waves, self.across)
+            )
             kept = slice(along), slice(across)
             decay = rate[kept] * depth
             left = np.exp(-decay) * (own[kept] - part[kept] * decay)

@@ -96,28 +96,23 @@ def _rows(
         longest = float(reach.max(initial=0.0))
     shared = (cell_size, width, longest)
     bases = _bases_of_ends(response, range(begin, end), borders, *shared)
-    if moving is None:
-        for basis in bases:
-            basis.table(shape[1], cell_size[1])  # of all columns at once
+    stack = response.stack if isinstance(response, EndedLayers) else None
     if moving is not None:
-        count = end if after is None else after - (before or 0)
-        part = (count, shape[1])
-        if isinstance(response, EndedLayers):
-            table = _moving_table_of_layers(part, cell_size, moving, response.stack)
+        part = (end if after is None else after - (before or 0), shape[1])
+        if stack is not None:
+            table = _moving_table_of_layers(part, cell_size, moving, stack)
         else:
             table = _moving_table(part, cell_size, moving, periodic=None not in borders)
         return EndedRows(borders, table, bases, begin, moving)
-    table = np.empty((0, 0))
-    if before is not None and after is not None:
-        # With the datum of a grid that is periodic.
-        period = 2 * (after - before)
-        layers = response.stack if isinstance(response, EndedLayers) else None
-        cells = (period, shape[1])
-        table = (
-            smooth_periodic_table(cells, cell_size, width)
-            if layers is None
-            else periodic_layered_table(cells, cell_size, layers, width)
-        )
+    for basis in bases:
+        basis.table(shape[1], cell_size[1])  # of all columns at once
+    if before is None or after is None:
+        return EndedRows(borders, np.empty((0, 0)), bases, begin)
+    cells = 2 * (after - before), shape[1]
+    # With the datum of a grid that is periodic.
+    if stack is None:
+        return EndedRows(borders, smooth_periodic_table(cells, cell_size, width), bases, begin)
+    table = periodic_layered_table(cells, cell_size, stack, width)
     return EndedRows(borders, table, bases, begin)
 
 

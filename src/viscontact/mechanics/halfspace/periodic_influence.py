@@ -39,9 +39,9 @@ SHORT = 1 / 32
 #: a cell across.
 IMAGES = 6
 
-#: Images that are found at all places, and Chebyshev's nodes for each distance of the next ones, at
-#: which they and those beyond are found.
-NEXT, FAR_NODES = 1, 14
+#: Images on either side that are found at all places, and Chebyshev's nodes for each distance of
+#: the next ones, at which they and those beyond are found.
+NEAR_IMAGES, FAR_NODES = 1, 14
 
 #: Factors of the first, third, ... derivative in the Euler-Maclaurin formula from the middle.
 MIDDLE_FACTORS = ((1, 1 / 24), (3, -7 / 5760), (5, 31 / 967680), (7, -127 / 154828800))
@@ -81,7 +81,7 @@ def smooth_periodic_table(
     far = _far_images(along[:, None], across[None, :], cell_size, period, images, datum, rule)
     near = np.zeros((len(x), ny))
     for image in range(-images, images + 1):
-        is_near = abs(image) <= NEXT
+        is_near = abs(image) <= NEAR_IMAGES
         places, others, into = (x, y, near) if is_near else (along, across, far)
         into += influence_coefficient(places[:, None] + image * period, others, cell_size)
     half = near + _between(x, along) @ far @ _between(y, across).T
@@ -92,7 +92,7 @@ def smooth_periodic_table(
 def _nodes_among(places: Floats, period: float) -> Floats:
     """Chebyshev's nodes over places for what varies over some periods, or all places [m]."""
     length = float(places[-1])
-    count = FAR_NODES + FAR_NODES * math.ceil(length / ((NEXT + 0.5) * period))
+    count = FAR_NODES + FAR_NODES * math.ceil(length / ((NEAR_IMAGES + 0.5) * period))
     if 2 * count > len(places):
         return places
     angles = np.pi * (np.arange(count) + 0.5) / count

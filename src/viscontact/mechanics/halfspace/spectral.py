@@ -78,7 +78,7 @@ class PeriodicConvolution:
         total._has_datum = all(part._has_datum for part in parts)
         if not total._has_datum:
             symbol[0, 0] = 0.0
-        total._filter = SpectrumFilter(self._spectra, symbol.astype(self._filter.symbol.dtype))
+        total._filter = SpectrumFilter(self._spectra, symbol.astype(self._spectra.number))
         return total
 
     @property
@@ -142,8 +142,16 @@ class SpectrumFilter:
     """
 
     def __init__(self, spectra: Spectra, symbol: Numbers) -> None:
-        self.symbol = symbol
         self._spectra, self.compiled = spectra, spectra.compiled(symbol)
+        self._symbol = None if self.compiled is not None else symbol
+
+    @property
+    def symbol(self) -> Numbers:
+        """The symbol at all waves of a spectrum."""
+        if self.compiled is not None:
+            return self._spectra.at_all_waves(self.compiled.symbol)
+        assert self._symbol is not None  # kept where the core does not keep it
+        return self._symbol
 
     def apply(self, field: Field, into: Field | None = None) -> Field:
         """Return the filtered field, in an array if one is given."""
@@ -180,6 +188,11 @@ class Spectra:
         self._wave_rows = blocks_of(len(waves[0]), len(waves[1]) * kind.itemsize)
 
     @property
+    def number(self) -> np.dtype[Any]:
+        """Kind of the numbers of fields."""
+        return self._number
+
+    @property
     def half_wave_numbers(self) -> Floats:
         """|q|/2 at each entry of a spectrum, a new array [1/m]."""
         x, y = self.wave_numbers
@@ -194,6 +207,17 @@ class Spectra:
         even = 0 in self._even, 1 in self._even
         given = self._team, self._shape, self._shape, even, symbol[halves[0], halves[1]]
         return compiled_filter(*given, single=self._number == np.float32)
+
+    def at_all_waves(self, symbol: Floats) -> Floats:
+        """A symbol that is even along both axes, of that of waves that are not negative."""
+        (first, second), _ = self._spectrum
+        x, y = (
+            np.minimum(np.arange(count), abs(self._shape[axis] - np.arange(count)))
+            if axis in self._fourier
+            else np.arange(count)
+            for axis, count in enumerate((first, second))
+        )
+        return np.asarray(symbol[np.ix_(x, y)])
 
     def filtered(
         self,

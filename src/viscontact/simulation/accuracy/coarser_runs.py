@@ -15,7 +15,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.cell_borders import with_borders_at
 from viscontact.bodies.loads import MixedHistory
 from viscontact.bodies.materials.compliance import ContactCompliance
-from viscontact.mechanics.contact.cell_fields import is_even
+from viscontact.mechanics.contact.mirror_symmetry import is_mirrored
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
 from viscontact.mechanics.state import ContactState
 from viscontact.mechanics.time_integration.fixed_steps import plan_steps, step_ends
@@ -186,7 +186,7 @@ def _parities(run: RunSetup) -> tuple[bool, bool]:
     # Of a run that is symmetric on even numbers of cells only a quarter is solved: also on grids
     # that keep the parity. They all do where the body does not end, else the larger one.
     free = [axis for axis, repeats in enumerate(run.grid.periodic) if not repeats]
-    if not all(is_even(run.open_gap, axis) for axis in free):
+    if not all(is_mirrored(run.open_gap, axis) for axis in free):
         return False, True
     return True, bool(np.isfinite(run.open_gap).all())
 

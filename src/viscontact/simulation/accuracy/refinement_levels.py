@@ -163,13 +163,6 @@ def _interpolated(times: Floats, values: Floats) -> Floats:
 WINDOW_STEPS = 3
 
 
-def _windows(values: Numbers, reach: int) -> Floats:
-    """Values at the times around each, NaN beyond the ends."""
-    padded = np.full(len(values) + 2 * reach, np.nan)
-    padded[reach : len(values) + reach] = values
-    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
-
-
 def _moving(choice: np.ufunc, values: Numbers, reach: int) -> Floats:
     """Choice among the values in the window around each time."""
     # Shift by shift, in half the time of a view of windows: it is done 80 times in a run.
@@ -222,7 +215,8 @@ def moving_minimum(values: Numbers) -> Floats:
 
 def moving_mean(values: Floats) -> Floats:
     """Mean over a window of times without NaN; NaN where all are NaN."""
-    windows = _windows(values, WINDOW_STEPS)
+    padded = np.pad(np.asarray(values, dtype=float), WINDOW_STEPS, constant_values=np.nan)
+    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * WINDOW_STEPS + 1)
     known = np.isfinite(windows)
     count = known.sum(axis=1)
     return np.where(

@@ -92,8 +92,9 @@ class CompiledPasses(SearchPasses):
         `operators` are those of the core with memory for their work; `fields` pressure and the one
         ahead; active cells and the last ones; residual and the last one; direction, spare field,
         unit displacement and stiffness. `last` is the correction of the stiffness and the last
-        slope, `step` the length of a trial step and the unit of directions [Pa]. The new direction
-        is in the spare field, and the way to a projected pressure in that of the last direction.
+        slope, `step` the length of a trial step and the unit of directions [Pa m]. The new
+        direction is in the spare field, and the way to a projected pressure in that of the last
+        direction.
         """
         balances = constraints.plain_targets, constraints.free_motions, *size
         found = self._core.advance(
