@@ -355,6 +355,23 @@ def test_program_pulls_to_a_force_and_ends_where_contact_is_lost():
     assert int(found.outcome[-1]) == Outcome.NO_CONTACT
 
 
+def test_stability_in_a_program_does_not_depend_on_the_control_before():
+    # Without a change of the force the body moves, and the factor is a third larger: at the same
+    # approaches, reached under a force first or by approach alone, it is the same.
+    speed = f"{DEPTH * 1e6:.9f} um/s"
+    program = vc.LoadProgram(
+        f"load at {0.5e6 * FORCE:.9f} uN/s for 1 s; retract at {speed} for 1 s"
+    )
+    times = np.linspace(0.0, 2.0, 9)
+    found = run(program, times).sel(time=times[times > 1], method="nearest")
+    levels = [*found.approach.values]
+    way = np.array([levels[0] + 0.25 * DEPTH, *levels])
+    alone = run(vc.ApproachHistory(times[4:] - 1.0, way), times[4:] - 1.0)
+    expected = alone.stability.values[1:]
+    np.testing.assert_allclose(found.stability, expected, rtol=2e-2)
+    assert 0.45 < min(expected) < max(expected) < 0.55
+
+
 def test_program_whose_force_pulls_too_much_ends_as_pulled_off():
     rate = FORCE * 1e6
     program = vc.LoadProgram(

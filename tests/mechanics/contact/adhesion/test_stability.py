@@ -1,12 +1,18 @@
 """Stability of an adhesive contact: the factor of the descent, and 1 where a state ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+import viscontact as vc
 from closeness import close_to
 from mechanics.contact.adhesion.spheres import DEPTH, Sphere
 from viscontact.mechanics.contact.adhesion.descent import Descent
+from viscontact.mechanics.contact.adhesion.equilibrium import solve_from, traction_at
 from viscontact.mechanics.contact.adhesion.stability import stability
+from viscontact.mechanics.contact.domain import ContactDomain
+from viscontact.mechanics.contact.rigid_balance import Constraints
 
 
 def test_contact_under_a_force_becomes_unstable_where_the_force_is_least():
@@ -53,6 +59,39 @@ def test_stability_from_the_change_of_the_state_before_is_that_from_none(law):
         factor, _ = stability(*given)
         continued, known = stability(*given, known)
         assert continued == close_to(factor, rel=2e-2)
+
+
+def freed(resultants):
+    """A sphere off the middle of its grid, whose motions are free or held from its state on."""
+    sphere = Sphere("exponential", 1.0, 24, 5.0)
+    domain = ContactDomain(vc.Grid((24, 24), (5.0, 5.0)))
+    x, y = domain.grid.x[:, None], domain.grid.y
+    gap = vc.Paraboloid(1.0, 1.0).gap(x - 0.4, y + 0.2)
+    held = sphere.problem(approach=0.2)
+    held = replace(held, contact=replace(held.contact, open_gap=gap))
+    start = traction_at(held, domain, np.maximum(gap - 0.2, 0.0))
+    state = solve_from(held, domain, start, 1e-7)
+    posed = replace(held.contact, constraints=Constraints(resultants, (0.2, 0.0, 0.0)))
+    return replace(held, contact=posed), domain, state
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ((0.0, None, None), (None, None, None)),
+        ((None, None, None), (0.0, None, None)),
+        ((None, 0.0, None), (None, None, None)),
+        ((None, None, 0.0), (None, 0.0, None)),
+        ((0.0, 0.0, 0.0), (0.0, None, None)),
+        ((None, None, None), (0.0, 0.0, 0.0)),
+    ],
+)
+def test_stability_after_a_change_of_control_is_that_from_none(before, after):
+    # What moved under a force, or tilted, is held now, or the other way round.
+    _, known = stability(*freed(before))
+    factor, _ = stability(*freed(after))
+    continued, _ = stability(*freed(after), known)
+    assert continued == close_to(factor, rel=2e-2)
 
 
 def test_stability_does_without_a_change_of_cells_that_the_front_has_left():

@@ -64,6 +64,7 @@ class ReturnedChange:
     values: Floats  # pressure, of cells in contact, too [Pa], and its unit displacement [Pa m]
     motion: Floats  # over the compliance
     in_contact: Bools
+    free: Bools  # motions that balances determined
 
     @property
     def pressure(self) -> Guess:
@@ -88,7 +89,9 @@ def stability(
         return 0.0, None  # the surfaces do not move, or do not attract each other
     decreases = problem.law.decreasing is problem.law
     held = _Held(problem, domain, solution.in_contact)
-    found = [held.carried(known, falls)] if known is not None and decreases else []
+    # Of a body that was free to move otherwise the change is another one.
+    carries = known is not None and decreases and np.array_equal(known.free, held.free)
+    found = [held.carried(known, falls)] if known is not None and carries else []
     change, limit = np.where(falls > 0, falls, 0.0), NEGLIGIBLE_SLOPE
     solves, reductions = VECTORS, (REDUCTION, LARGEST_REDUCTION)
     if not decreases:
@@ -107,7 +110,7 @@ def stability(
     factor, weights = _largest_ratio(found, np.flatnonzero(solution.in_contact))
     values = _sum(weights, [each.pressure.values for each in found])
     motion = _sum(weights, [each.pressure.motion for each in found])
-    return factor, ReturnedChange(values, motion, solution.in_contact)
+    return factor, ReturnedChange(values, motion, solution.in_contact, held.free)
 
 
 def _apart(change: Floats, known: list[Floats]) -> tuple[Floats, float]:
@@ -219,13 +222,13 @@ class _Held:
         self.domain.whole.convolution.apply(values[0].astype(np.float32), into=values[1])
         found = self.answer(Guess(values, scale * known.motion), falls)
         touching = np.flatnonzero(contact)
-        is_balanced = not (self._free.any() or touching.size)
+        is_balanced = not (self.free.any() or touching.size)
         for _ in range(TRIALS):
             work = np.einsum("ij,ij->", found.attraction, found.opened)
             yielded = (found.pressure.pressure * found.opened).ravel()[touching]
             if is_balanced and np.abs(yielded).sum() <= LARGEST_YIELD * work:
                 break
-            if self._free.any():
+            if self.free.any():
                 start = Guess(found.pressure.values, found.pressure.motion * self._compliance)
                 found = self._solved(start, change, falls, (REDUCTION_CARRIED, 0.0))
             else:
@@ -248,7 +251,8 @@ class _Held:
         return self.answer(Guess(values, found.pressure.motion), falls)
 
     @property
-    def _free(self) -> Bools:
+    def free(self) -> Bools:
+        """The motions that balances determine."""
         return self.problem.contact.constraints.free
 
     @property
@@ -256,11 +260,7 @@ class _Held:
         return self.problem.contact.compliance
 
     def _solved(
-        self,
-        start: Guess,
-        change: Floats,
-        falls: Floats,
-        goals: tuple[float, float],
+        self, start: Guess, change: Floats, falls: Floats, goals: tuple[float, float]
     ) -> _Answer:
         """Answer to a change [Pa] from a start, whose memory is used, to a reduction and a goal."""
         yielded = self._opened(start) if start.pressure.any() else 0.0
