@@ -18,6 +18,7 @@ from simulation.transient.test_march import differing, steps_of, through_a_file
 from viscontact.bodies.grid import AutomaticGrid
 from viscontact.mechanics.problem.kept_fields import KeptFields
 from viscontact.mechanics.problem.problem import Problem
+from viscontact.mechanics.problem.problem_from_arguments import contact_problem
 from viscontact.mechanics.state import ContactState
 from viscontact.runs.directory.recorded import Recorded
 from viscontact.runs.directory.recorder import Recorder
@@ -215,6 +216,69 @@ def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None
     pressed = ds.x.values[ds.pressure.values[-1].any(axis=1)]
     cell = float(ds.x[1] - ds.x[0])
     assert pressed.max() == close_to(6e-4 + radius, abs=cell)
+
+
+# --- bodies that adhere -----------------------------------------------------------------------
+
+#: Of a sphere on a gel, 1/(4 G) = 1e-6 m²/N; units of force, length and approach (Maugis 1992).
+WORK, RADIUS, COMPLIANCE = 0.05, 1e-3, 1e-6
+FORCE = np.pi * WORK * RADIUS
+LENGTH = np.cbrt(FORCE * RADIUS * COMPLIANCE * 3 / 4)
+DEPTH = LENGTH**2 / RADIUS
+GEL = vc.Material(vc.Elastic(0.25e6), poisson_ratio=0.5)
+CREEPING = vc.Material(vc.Zener(2.5e5, 2.5e5, 2.5e4), poisson_ratio=0.5)
+
+
+def adhering(cells: int, levels: list[float], material: vc.Material, count: int) -> RunSetup:
+    size = cells * 9 * LENGTH / 80
+    law = vc.Adhesion(WORK, range=np.cbrt(RADIUS * (WORK * COMPLIANCE) ** 2) / 1.5)
+    load = vc.ApproachHistory([0.0, 1.0, 2.0], np.array(levels) * DEPTH)
+    given = contact_problem(
+        indenter=vc.Paraboloid(RADIUS, RADIUS),
+        material=material,
+        load=load,
+        grid=vc.Grid((cells, cells), (size, size)),
+        times=np.linspace(0.0, 2.0, count),
+        adhesion=law,
+    )
+    return prepare_run(given)
+
+
+def work_and_cells(run: RunSetup) -> tuple[list[float], list[int]]:
+    """Work [FORCE · DEPTH] and cells along x of each state."""
+    states = states_of(run)
+    works = [state.work / (FORCE * DEPTH) for state in states]
+    return works, [state.grid.shape[0] for state in states]
+
+
+def test_elastic_bodies_that_adhere_lose_nothing_on_a_closed_path_on_which_the_grid_grows() -> None:
+    # Without a jump the load gets back what it has done. Attraction has pulled beyond the small
+    # grid, by an energy of 0.036 at the growth, and by 1e-4 at the first and last approach.
+    works, cells = work_and_cells(growing(adhering(44, [-0.3, 3.0, -0.3], GEL, 17)))
+    assert (cells[0], cells[-1]) == (44, 72)
+    assert works[-1] - works[0] == close_to(0.0, abs=2e-4)
+    assert max(works) - min(works) > 3
+
+
+@pytest.mark.parametrize(
+    ("start", "levels", "material", "beyond"),
+    [
+        # The pull of the new cells changes the force, and the growth takes a step of the shortest
+        # length. `beyond` is the energy of their attraction [FORCE · DEPTH].
+        (28, [-3.0, 0.8, -3.0], GEL, 0.0515),
+        (44, [-0.3, 3.0, -0.3], CREEPING, 0.0179),
+    ],
+    ids=["in a shortest step", "while it creeps"],
+)
+def test_work_after_the_growth_contains_that_of_attraction_in_the_new_cells_before(
+    start: int, levels: list[float], material: vc.Material, beyond: float
+) -> None:
+    # As on a grid that was always so large, but for products of what these cells change.
+    grown, cells = work_and_cells(growing(adhering(start, levels, material, 33)))
+    large, _ = work_and_cells(adhering(cells[-1], levels, material, 33))
+    apart = [abs(a - b) for a, b, n in zip(grown, large, cells, strict=True) if n == cells[-1]]
+    assert len(apart) > 10
+    assert max(apart) < 0.2 * beyond
 
 
 # --- on disk ----------------------------------------------------------------------------------

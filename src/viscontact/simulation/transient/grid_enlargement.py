@@ -16,6 +16,7 @@ from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.rim_crossings import MARGIN
 from viscontact.mechanics.halfspace.surface_response import SurfaceResponse
 from viscontact.simulation.meshing.contact_extent import MAX_CELLS
+from viscontact.simulation.transient.setup import RunSetup
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Growth of the grid along an axis where the contact reaches its rim [-].
@@ -63,6 +64,7 @@ class GridEnlargement:
 
     small: ContactDomain
     large: ContactDomain
+    run: RunSetup | None = None  # on the larger grid; without it no solution of a step is mapped
 
     def pressure(self, pressure: Floats) -> Floats:
         """Embed a pressure of the computed cells in those of the larger grid."""
@@ -89,11 +91,26 @@ class GridEnlargement:
         # Of several terms, the displacement is known on the smaller grid only.
         beyond = large.expand_by_symmetry(reference[1])
         known = small.grid.embed(before.displacement, large.grid, beyond=np.nan)
+        displacement = np.where(np.isnan(known), beyond, known)
+        attracted = self._energy_beyond(displacement, np.isnan(known), before.motion)
         return replace(
             before,
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
-            displacement=np.where(np.isnan(known), beyond, known),
+            displacement=displacement,
             in_contact=small.grid.embed(before.in_contact, large.grid, beyond=False),
             reference=reference,
+            adhesion_energy=before.adhesion_energy + attracted,
+            work_beyond=before.work_beyond - attracted,
         )
+
+    def _energy_beyond(self, displacement: Floats, beyond: Bools, motion: Floats) -> float:
+        """Work that separating the surfaces in cells beyond the smaller grid would take [J]."""
+        run = self.run
+        if run is None or run.law is None:
+            return 0.0
+        approach, tilt_x, tilt_y = motion
+        plane = approach + tilt_x * run.grid.x[:, None] + tilt_y * run.grid.y
+        gap = run.gap_at(0.0) + displacement - plane  # bodies that adhere do not travel
+        energy = run.law.energy(np.maximum(gap[beyond], 0.0))
+        return float(energy.sum()) * run.grid.cell_area

@@ -150,7 +150,7 @@ class March:
     def _enlarge(self, grid: Grid) -> None:
         """Continue from the same state on a larger grid."""
         run = self._run.on(grid)
-        enlargement = GridEnlargement(self._domain, domain_of(run))
+        enlargement = GridEnlargement(self._domain, domain_of(run), run)
         self._stepper.map_fields(run, enlargement)
         self._observer.map_fields(run, enlargement)
         self._friction.map_fields(run, enlargement)

@@ -31,7 +31,10 @@ class StepSolution:
     stability: float = math.nan
     #: Work that separating the surfaces would take [J], 0 without adhesion.
     adhesion_energy: float = 0.0
-    jumped: bool = False  # to another state, at once
+    #: Work of the attraction up to this state in cells that the grid has gained since [J].
+    work_beyond: float = 0.0
+    #: True if it may be another state: found by descent, or in a step of the shortest length.
+    jumped: bool = False
     time_error: float = 0.0  # estimated relative error of the pressure by the steps so far [-]
     # Energy that the bodies lose in the step of a moving contact [J]; NaN if unknown.
     heat: float = math.nan

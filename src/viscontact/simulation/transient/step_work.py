@@ -21,7 +21,19 @@ def first_work(run: RunSetup, solution: StepSolution) -> float:
 def work_of_step(
     run: RunSetup, before: StepSolution, solution: StepSolution, *, held: bool
 ) -> float:
-    """Work over a step [J]: exact while the load is held, and for all that is elastic."""
+    """Work over a step [J], with what the attraction did before in cells the grid has gained.
+
+    Exact while the load is held, and on elastic bodies, with two exceptions where they adhere: a
+    law that ends abruptly, and a step that jumped or may have, as one of the shortest length. These
+    take mean force times travel, as creeping bodies that adhere do.
+    """
+    # With it a run whose grid grows goes on as one on the large grid: what the load has done on an
+    # elastic body is its energy, and a closed path without jumps takes none.
+    return _within(run, before, solution, held=held) + before.work_beyond
+
+
+def _within(run: RunSetup, before: StepSolution, solution: StepSolution, *, held: bool) -> float:
+    """Work within a step [J]."""
     travel = solution.motion - before.motion
     of_load = float((before.resultants + solution.resultants) @ travel / 2)
     if held or (run.law is not None and not _gives_back(run, run.law, solution)):
