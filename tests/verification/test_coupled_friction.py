@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import convolve
 
 import viscontact as vc
 from closeness import close_to
+from viscontact.mechanics.halfspace.coupling_influence import coupling_coefficient
+from viscontact.mechanics.halfspace.influence import influence_coefficient
 from viscontact.simulation.transient import setup
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -230,3 +233,35 @@ def test_a_contact_that_grows_at_once_is_warned_of(body):
     assert [warned for warned, _ in found] == [grows, False]
     differs = abs(found[0][1] / found[1][1] - 1) > 0.05
     assert differs == grows
+
+
+def test_tractions_meet_a_tight_tolerance_by_direct_sums():
+    """The gap by the closed forms of all cells (Johnson 1985, eqs. 3.25 and 3.75c)."""
+    grid, ratio, tolerance = vc.Grid((32, 32), (4e-3, 4e-3)), 0.2, 1e-10
+    ball, load = vc.Sphere(1e-2), vc.ForceHistory([0, 0.5], [0, FORCE])
+    pull = vc.TangentialHistory([0.5, 1], force_x=[0, 0.02])
+    given = {"friction": 0.3, "tangential": pull, "tolerance": tolerance}
+    states = pressed(ball, elastic(ratio), load, grid, [0.5, 1.0], **given)
+    x, y = (np.arange(1 - n, n) * edge for n, edge in zip(grid.shape, grid.cell_size, strict=True))
+    x, y, size = x[:, None], y[None, :], grid.cell_size
+    kernels = (
+        (1 - ratio) / (2 * MODULUS) * influence_coefficient(x, y, size),
+        (1 - 2 * ratio) / (4 * MODULUS) * coupling_coefficient(x, y, size),
+        (1 - 2 * ratio) / (4 * MODULUS) * coupling_coefficient(y.T, x.T, size[::-1]).T,
+    )
+    across, along = np.meshgrid(grid.y, grid.x)
+    profile = ball.radius - np.sqrt(ball.radius**2 - along**2 - across**2)
+    assert len(states) == 2
+    for state in states:
+        fields = state.pressure, state.traction_x, state.traction_y
+        moved, by_x, by_y = (
+            convolve(field, kernel, "valid", "direct")
+            for field, kernel in zip(fields, kernels, strict=True)
+        )
+        assert np.abs(by_x).max() > 0.01 * moved.max()
+        touching = state.pressure > 0
+        gap = (profile + moved + by_x + by_y)[touching]
+        # Without moments the body tilts as it may.
+        planes = np.stack([np.ones(gap.shape), along[touching], across[touching]], axis=1)
+        gap -= planes @ np.linalg.lstsq(planes, gap, rcond=None)[0]
+        assert np.abs(gap).max() <= 1.1 * tolerance * moved.max()

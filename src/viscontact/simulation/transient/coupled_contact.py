@@ -7,7 +7,9 @@ tractions under the last pressure:
 1. Normal contact in the gap that the tractions leave, from the last pressure.
 2. Tractions at this pressure, from the last ones.
 3. The displacement by these tractions, and the residual of the normal contact in it. Where it meets
-   the tolerance both problems are solved at the same pressure and tractions.
+   the tolerance both problems are solved at the same pressure and tractions. The displacement
+   follows the tractions in single precision (`step_lift`); where a tolerance is so tight that the
+   rounding of it counts, it is found once in double precision and the residual again.
 
 Each alternation leaves a tenth to a thirtieth of the residual. Both solves go as far as the
 coupling is known: up to a part of the last residual, as a length.
@@ -21,18 +23,18 @@ from dataclasses import replace
 import numpy as np
 
 from viscontact.backend.arrays import Floats
-from viscontact.backend.transforms import transforms_by
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.loads.tangential import TangentialLoad
-from viscontact.mechanics.contact.contact_residual import contact_residual
+from viscontact.mechanics.contact.contact_residual import ContactResidual, contact_residual
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.mechanics.contact.friction.equilibrium import NEGLIGIBLE
 from viscontact.mechanics.contact.friction.mixing import AndersonMixing
 from viscontact.mechanics.contact.friction.normal_contact import NormalContact
 from viscontact.mechanics.contact.friction.predicted import predicted
 from viscontact.mechanics.contact.friction.region import Region
 from viscontact.mechanics.contact.problem import ContactProblem, Guess
-from viscontact.mechanics.halfspace.coupling_filter import CouplingSum, coupling_filter
+from viscontact.mechanics.halfspace.coupling_filter import CouplingSum
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.simulation.checks.friction import Grip, Growth
@@ -48,6 +50,7 @@ from viscontact.simulation.transient.slip_step import (
     shift_constraints,
     solved_on,
 )
+from viscontact.simulation.transient.step_lift import LiftOperator, StepLift
 from viscontact.simulation.transient.step_solution import StepSolution
 
 #: Alternations of one step.
@@ -70,15 +73,14 @@ class CoupledContact(FrictionalContact):
     def __init__(self, run: RunSetup, friction: Friction, load: TangentialLoad) -> None:
         super().__init__(run, friction, load)
         self._memory = CouplingHistory(run)
-        self._operator, self._computed = _operator_of(run), _computed_cells(run)
-        self._search = self._operator.in_single()
+        self._lift = LiftOperator(run)
         self._growth = Growth()
         #: Operators of regions, which are kept.
         self._block: tuple[Region, CouplingSum] | None = None
 
     def earlier_lift(self, step: TimeStep) -> Floats:
         """Displacement into the surface at the end of a step by earlier tractions [m]."""
-        return self._lift(self._respond(step).past)
+        return self._lift.of(self._respond(step).past)
 
     def equilibrium(
         self,
@@ -89,43 +91,44 @@ class CoupledContact(FrictionalContact):
         tolerance: float,
     ) -> tuple[ContactSolution, JointSlip | None]:
         """Solve both problems of a step; the open gap holds the lift by earlier tractions."""
-        response = self._respond(step)
-        mixing, wanted = AndersonMixing(), max(tolerance, FIRST_TOLERANCE)
-        traction, slip = self._foreseen(step), None
-        lift = reached = self._lift(response.of_traction(traction))
+        response, mixing = self._respond(step), AndersonMixing()
+        reached = StepLift(self._lift, response, self._foreseen(step))
+        lift, wanted = reached.field, max(tolerance, FIRST_TOLERANCE)
+        slip: StepSlip | None = None
         contact: NormalContact | None = None
         for _ in range(MOST_ALTERNATIONS):
-            lifted = replace(problem, open_gap=problem.open_gap + lift)
-            found = solve_contact(lifted, domain, guess, tolerance=wanted)
+            found = solve_contact(_lifted(problem, lift), domain, guess, tolerance=wanted)
             if not found.converged or not found.in_contact.any():
                 return found, None
             guess = found.found
             last, contact = contact, _contact_of(found, problem, domain)
-            start = SlipGuess(self._guess(step, contact))
-            if last is not None and slip is not None:
-                fresh = contact.entered_since(self._state.contact)
-                start = rescaled(slip, last, contact, self._coefficient, fresh)
+            start = self._start(step, contact, last, slip)
             along = _tolerance_along(wanted, tolerance, contact, slip)
             slip = self._slip(step, response, contact, start, along)
-            change, traction = slip.traction - traction, slip.traction
-            reached = reached + self._change(response.of_traction(change))
-            held = replace(problem, open_gap=problem.open_gap + reached)
-            checked = contact_residual(held, domain.whole, guess)
+            reached.follow(slip.traction)
+            checked = _checked(problem, domain, guess, reached, contact.displacement, tolerance)
             error = max(checked.error, slip.residual)
             if error <= tolerance:
-                solved = replace(
-                    found,
-                    motion=checked.motion,
-                    gap=checked.gap,
-                    in_contact=checked.in_contact,
-                    residual=error,
-                )
                 opened = domain.expand_by_symmetry(checked.gap)
                 gap = _bipotential_gap(slip, contact, opened, self._coefficient)
-                return solved, JointSlip(replace(slip, duality_gap=gap), reached)
+                joint = JointSlip(replace(slip, duality_gap=gap), reached.field)
+                return _solved(found, checked, error), joint
             wanted = max(LAST * tolerance, min(wanted, FORCING * checked.error))
-            lift = mixing.next(lift, reached)
+            lift = mixing.next(lift, reached.field)
         return replace(found, residual=error, converged=False), None
+
+    def _start(
+        self,
+        step: TimeStep,
+        contact: NormalContact,
+        last: NormalContact | None,
+        slip: StepSlip | None,
+    ) -> SlipGuess:
+        """Guess of the tractions: those of the last alternation, at its pressure, if there are."""
+        if last is None or slip is None:
+            return SlipGuess(self._guess(step, contact))
+        fresh = contact.entered_since(self._state.contact)
+        return rescaled(slip, last, contact, self._coefficient, fresh)
 
     def trial(
         self, step: TimeStep, solution: StepSolution, joint: JointSlip | None = None
@@ -162,14 +165,6 @@ class CoupledContact(FrictionalContact):
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
 
-    def _lift(self, sums: tuple[Floats, ...]) -> Floats:
-        """Displacement of the computed cells into the surface by sums Q of all cells [m]."""
-        return self._operator.normal([each[:, *self._computed] for each in sums])
-
-    def _change(self, sums: tuple[Floats, ...]) -> Floats:
-        """The same of small changes of the sums, in single precision [m]."""
-        return self._search.change([each[:, *self._computed] for each in sums])
-
     def _slip(
         self,
         step: TimeStep,
@@ -193,14 +188,13 @@ class CoupledContact(FrictionalContact):
     def _on(self, region: Region) -> CouplingSum:
         """Operator on a region."""
         if self._block is None or self._block[0] != region:
-            self._block = region, self._operator.within(region.shape)
+            self._block = region, self._lift.within(region.shape)
         return self._block[1]
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
         super().map_fields(run, enlargement)
-        self._operator, self._computed = _operator_of(run), _computed_cells(run)
-        self._search = self._operator.in_single()
+        self._lift = LiftOperator(run)
         self._block = None
         self._memory.map_fields(_growing(enlargement))
 
@@ -218,24 +212,6 @@ class CoupledContact(FrictionalContact):
         self._growth = Growth(None if grown is None else Grip(**grown), restart_data["most"])
 
 
-def _operator_of(run: RunSetup) -> CouplingSum:
-    transforms = transforms_by(run.transforms, run.threads)
-    parts = (
-        coupling_filter(run.grid, transforms, run.mirrored, each)
-        for each in run.problem.shear.coupled
-    )
-    return CouplingSum(tuple(parts))
-
-
-def _computed_cells(run: RunSetup) -> tuple[slice, slice]:
-    """Cells beyond the mirror planes of a run."""
-    rows, columns = (
-        slice(count // 2 if even else 0, None)
-        for count, even in zip(run.grid.shape, run.mirrored, strict=True)
-    )
-    return rows, columns
-
-
 def _growing(enlargement: GridEnlargement) -> Callable[[Floats], Floats]:
     small, large = enlargement.small.grid, enlargement.large.grid
 
@@ -246,6 +222,37 @@ def _growing(enlargement: GridEnlargement) -> Callable[[Floats], Floats]:
         return found
 
     return grown
+
+
+def _checked(
+    problem: ContactProblem,
+    domain: ContactDomain,
+    found: Guess,
+    lift: StepLift,
+    displacement: float,
+    tolerance: float,
+) -> ContactResidual:
+    """Residual of a pressure in a lift, which is refined where it would be accepted by rounding."""
+    checked = contact_residual(_lifted(problem, lift.field), domain.whole, found)
+    scale = max(problem.displacement_scale, displacement)
+    if checked.error <= tolerance and lift.refine(NEGLIGIBLE * tolerance * scale):
+        checked = contact_residual(_lifted(problem, lift.field), domain.whole, found)
+    return checked
+
+
+def _lifted(problem: ContactProblem, lift: Floats) -> ContactProblem:
+    return replace(problem, open_gap=problem.open_gap + lift)
+
+
+def _solved(found: ContactSolution, checked: ContactResidual, error: float) -> ContactSolution:
+    """Solution of the normal contact with the residual of both problems."""
+    return replace(
+        found,
+        motion=checked.motion,
+        gap=checked.gap,
+        in_contact=checked.in_contact,
+        residual=error,
+    )
 
 
 def _contact_of(
