@@ -79,7 +79,20 @@ def test_without_a_change_of_the_force_tractions_are_cut_off_only():
     np.testing.assert_allclose(np.hypot(*found), np.minimum(bound, 2 * before[0]), rtol=1e-12)
 
 
-def test_a_force_beyond_the_limit_slides():
+@pytest.mark.parametrize("times", [1.1, 2.0])
+@pytest.mark.parametrize("before", [0.0, 1.0])
+def test_a_force_beyond_the_limit_slides_along_it(before, times):
+    """Whatever was before: |q| = μ p, by Coulomb's law."""
+    shift, bound, squared = sphere()
+    given = np.stack([loaded(squared, before), np.zeros(bound.shape)])
+    direction = np.array([-0.6, 0.8])
+    found = predicted(given, bound, shift, under((*(times * LIMIT * direction), 0.0)))
+    expected = direction[:, None, None] * bound
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * bound.max())
+
+
+def test_nothing_is_predicted_where_friction_carries_nothing():
     shift, bound, _ = sphere()
-    found = predicted(np.zeros((2, *bound.shape)), bound, shift, under((1.1 * LIMIT, 0.0, 0.0)))
-    assert np.hypot(*found).max() <= bound.max() * (1 + 1e-12)
+    traction = np.zeros((2, *bound.shape))
+    found = predicted(traction, 0 * bound, shift, under((1.0, 0.0, 0.0)))
+    np.testing.assert_array_equal(found, traction)

@@ -36,12 +36,19 @@ MOST_TRIALS, MET = 20, 1e-3
 def predicted(
     traction: Floats, bound: Floats, shift: RigidShift, constraints: ShiftConstraints
 ) -> Floats:
-    """Tractions on the discs of which the prescribed forces have made a given traction, about."""
+    """Tractions on the discs of which the prescribed forces have made a given traction, about.
+
+    Under a force that friction does not carry, or just so, all cells slide along it.
+    """
     given = CutOff(traction, bound, np.zeros(bound.shape, bool)).traction
     lacking = constraints.lacking(shift.resultants(given))[:2] / shift.cell_area
-    size = float(np.hypot(*lacking))
-    if not size > LEAST_CHANGE * float(bound.sum()):
+    size, most = float(np.hypot(*lacking)), float(bound.sum())
+    if most == 0 or not size > LEAST_CHANGE * most:
         return given
+    force = constraints.resultants[:2] / shift.cell_area
+    pull = float(np.hypot(*force))
+    if pull >= most:
+        return np.asarray((force / pull)[:, None, None] * bound)
     cells = bound > 0
     direction = lacking / size
     change = _change(given[:, cells], bound[cells], direction, size)
