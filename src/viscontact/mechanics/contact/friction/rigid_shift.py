@@ -18,9 +18,12 @@ class RigidShift:
     modes: tuple[bool, bool, bool] = (True, True, True)  # motions that cells and images have
 
     def field(self, motion: Numbers) -> Floats:
-        """Displacement of the cells by a motion [m], (2, nx, ny); without rotation (2, 1, 1)."""
+        """Displacement of the cells by a motion [m], (2, nx, ny); without rotation (2, 1, 1).
+
+        It is a new array, which shares no memory with the motion.
+        """
         if not motion[2]:
-            return motion[:2, None, None]
+            return motion[:2, None, None].copy()
         found = np.empty((2, self.x.shape[0], self.y.shape[1]))
         found[0] = motion[0] - motion[2] * self.y
         found[1] = motion[1] + motion[2] * self.x
