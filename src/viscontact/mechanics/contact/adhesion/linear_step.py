@@ -63,33 +63,38 @@ class LinearStep:
         self._free, self._compliance = problem.contact.constraints.free, compliance
         self._is_free = bool(self._free.any())
         self._contact = np.flatnonzero(contact)
-        slope = np.where(pulled, compliance * checked.attraction.slope, 0.0).astype(np.float32)
         self._gap, self._traction, self._pulled = checked.gap, checked.attraction.traction, pulled
         self._scale, displacement = scales
         #: Weight of a gap per unit compliance in equations in contact [1/m].
         self._weight = self._scale * compliance / displacement
         if problem.law.is_abrupt:  # its front crosses a cell under errors of a contact beside it
             self._weight = 1 / spacing
+        slope, *self._across = (
+            np.where(pulled, compliance * each, 0.0).astype(np.float32)
+            for each in (checked.attraction.slope, *checked.attraction.slopes_across)
+        )
+        self._weigh(slope, spacing if problem.law.decreasing is not problem.law else 0.0)
+        self._lacking = lacking / patch.cell_area
+        if self._is_free:
+            self._balance(problem.spring / patch.cell_area)
+
+    def _weigh(self, slope: Singles, spacing: float) -> None:
+        """Prepare factors of the equations, by the slope of the attraction per unit compliance.
+
+        Where the attraction may grow with the gap, they are softened by its growth over a spacing.
+        """
         #: Factor of a change of the gap, per unit compliance, in each equation [1/m].
         self._of_gap = slope.copy()
         self._of_gap.ravel()[self._contact] = self._weight
-        self._open = np.ones(patch.shape, np.float32)
+        self._open = np.ones(self._patch.shape, np.float32)
         self._open.ravel()[self._contact] = 0.0
         self._closed = 1 - self._open
         #: What its equation takes the gap of a cell in contact by, inverted; 0 elsewhere [m].
         self._lifting = self._closed * np.float32(1 / self._weight)
         #: Equations of cells whose attraction grows with the gap are stiff [-].
         self._softened = self._open
-        if problem.law.decreasing is not problem.law:
-            stiff = 1 + np.maximum(slope, 0.0) * np.float32(spacing)
-            self._softened = self._open / stiff
-        across = checked.attraction.slopes_across
-        self._across = [
-            np.where(pulled, compliance * each, 0.0).astype(np.float32) for each in across
-        ]
-        self._lacking = lacking / patch.cell_area
-        if self._is_free:
-            self._balance(problem.spring / patch.cell_area)
+        if spacing > 0:
+            self._softened = self._open / (1 + np.maximum(slope, 0.0) * np.float32(spacing))
 
     def _balance(self, spring: float) -> None:
         """Prepare how much of each free motion meets what is lacking; stiffness by area [N/m³]."""

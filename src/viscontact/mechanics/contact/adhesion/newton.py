@@ -85,36 +85,61 @@ def newton_search(
     iterate, convolutions = start, 0
     checked = residual_of(problem, domain, iterate)
     predicted = float(checked.attraction.traction.sum())
-    is_guess, least = True, math.inf  # the displacement is not convolved with the pressure
-    largest = 0.0
-    sets, inner = CycleOfSets(), INNER_TOLERANCE
-    if problem.law.is_abrupt:
-        afar, inner = REDUCTION_ABRUPT, INNER_ABRUPT
+    is_guess = True  # the displacement is not convolved with the pressure
+    course = SearchCourse(tolerance, tried_steps)
     for step in range(max_steps + 1):
         if is_guess and (checked.error <= tolerance or step == max_steps):
             domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
             checked = residual_of(problem, domain, iterate)
             is_guess, convolutions = False, convolutions + 1
         converged = checked.error <= tolerance
-        least, largest = min(least, checked.error), max(largest, checked.error)
-        diverges = not checked.error <= DIVERGED * max(least, tolerance)
-        if tried_steps is not None and step >= tried_steps:
-            diverges |= checked.error > FALLEN * largest
-        if converged or diverges or step == max_steps or sets.repeats(checked):
+        if converged or step == max_steps or course.leads_nowhere(step, checked):
             break
-        system = LinearStep.of(problem, domain, iterate, checked, tolerance)
-        reduction = REDUCTION if checked.error <= NEAR else afar
-        motion = system.solve(iterate, reduction, inner * tolerance)
-        iterate, is_guess = Guess(iterate.values, motion), system.is_whole
-        if not is_guess:
-            domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
-            convolutions += 1
+        iterate, is_guess, spent = _after_step(problem, domain, iterate, checked, tolerance, afar)
         checked = residual_of(problem, domain, iterate)
-        convolutions += system.convolutions
+        convolutions += spent
     if is_guess:
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
         convolutions += 1
     return NewtonSearch(iterate, checked, step, convolutions, converged, predicted)
+
+
+def _after_step(
+    problem: AdhesiveProblem,
+    domain: ContactDomain,
+    iterate: Guess,
+    checked: AdhesiveResidual,
+    tolerance: float,
+    afar: float,
+) -> tuple[Guess, bool, int]:
+    """Pressure after one step; True if its displacement is a guess; convolutions."""
+    inner = INNER_TOLERANCE
+    if problem.law.is_abrupt:
+        afar, inner = REDUCTION_ABRUPT, INNER_ABRUPT
+    system = LinearStep.of(problem, domain, iterate, checked, tolerance)
+    reduction = REDUCTION if checked.error <= NEAR else afar
+    motion = system.solve(iterate, reduction, inner * tolerance)
+    if not system.is_whole:
+        domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
+    spent = system.convolutions + (not system.is_whole)
+    return Guess(iterate.values, motion), system.is_whole, spent
+
+
+class SearchCourse:
+    """Residuals of a search and its cells in contact, by which it is given up."""
+
+    def __init__(self, tolerance: float, tried_steps: int | None) -> None:
+        self._tolerance, self._tried_steps = tolerance, tried_steps
+        self._least, self._largest, self._sets = math.inf, 0.0, CycleOfSets()
+
+    def leads_nowhere(self, step: int, checked: AdhesiveResidual) -> bool:
+        """True if the residual grows, does not fall within the tried steps, or goes in circles."""
+        error = checked.error
+        self._least, self._largest = min(self._least, error), max(self._largest, error)
+        if not error <= DIVERGED * max(self._least, self._tolerance):
+            return True
+        tried = self._tried_steps is not None and step >= self._tried_steps
+        return (tried and error > FALLEN * self._largest) or self._sets.repeats(checked)
 
 
 class CycleOfSets:

@@ -17,7 +17,7 @@ import numpy as np
 
 from viscontact.backend.arrays import Floats
 from viscontact.mechanics.contact.friction.discs import balanced, lengths, on_circle
-from viscontact.mechanics.contact.friction.newton_step import newton_step
+from viscontact.mechanics.contact.friction.newton_step import NewtonStep, newton_step
 from viscontact.mechanics.contact.friction.predicted import predicted
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem, SlipSolution
 from viscontact.mechanics.contact.friction.residual import (
@@ -72,7 +72,7 @@ def solve_slip(
     ``converged`` is False if the residual or the balances are not met, as where the prescribed
     forces exceed what friction carries.
     """
-    shift, traction = block.shift, _first(problem, block, start, motion)
+    traction = _first(problem, block, start, motion)
     found = _judged(problem, block, traction, motion, single=tolerance > FINE)
     iterations, convolutions, failures, tries = 0, 1, 0, MOST_TRIES
     rounding = 0.0  # of the displacement, over the largest
@@ -81,24 +81,15 @@ def solve_slip(
             break
         step = newton_step(problem, block, traction, found, tolerance)
         iterations += step.iterations
-        convolutions += step.convolutions
-        for part in (*PARTS, FALLBACKS[failures % len(FALLBACKS)]):
-            trial = traction + part * step.traction
-            trial = balanced(trial, problem.bound, shift, problem.constraints, step.slips)
-            moved = found.motion + part * step.motion
-            judged = _judged_near(problem, block, (traction, found), trial, moved)
-            convolutions += 1
-            if _is_better(judged, found):
-                break
-        else:
-            failures += 1
+        trial, judged, tried = _along(problem, block, (traction, found), step, failures)
+        convolutions += step.convolutions + tried
+        failures += not _is_better(judged, found)
         # The change of the displacement is about as large as the residual was.
         rounding += SINGLE * found.error
         if judged.error <= tolerance <= FINE and rounding > NEGLIGIBLE * tolerance:
             judged, rounding = _judged(problem, block, trial, judged.motion), 0.0
             convolutions += 1
-        stalls = judged.error > max(LESS * found.error, tolerance)
-        if tries > 0 and stalls and _nearly_slides(judged):
+        if tries > 0 and _may_slide(judged, max(LESS * found.error, tolerance)):
             slid = _slid(problem, block, trial, judged)
             convolutions += 1
             if slid[1].error < LESS * judged.error:
@@ -117,12 +108,32 @@ def _first(problem: SlipProblem, block: ShearBlock, start: Floats, motion: Float
     return balanced(start, problem.bound, block.shift, problem.constraints, slips)
 
 
-def _nearly_slides(found: SlipResidual) -> bool:
-    """True if few cells stick."""
+def _along(
+    problem: SlipProblem,
+    block: ShearBlock,
+    known: tuple[Floats, SlipResidual],
+    step: NewtonStep,
+    failures: int,
+) -> tuple[Floats, SlipResidual, int]:
+    """Traction after the first part of a step that is better, or the last one; parts tried."""
+    (traction, found), tried = known, 0
+    for part in (*PARTS, FALLBACKS[failures % len(FALLBACKS)]):
+        tried += 1
+        trial = traction + part * step.traction
+        trial = balanced(trial, problem.bound, block.shift, problem.constraints, step.slips)
+        moved = found.motion + part * step.motion
+        judged = _judged_near(problem, block, known, trial, moved)
+        if _is_better(judged, found):
+            break
+    return trial, judged, tried
+
+
+def _may_slide(found: SlipResidual, most: float) -> bool:
+    """True if few cells stick and the residual is larger than a step may leave."""
     sticks, slips = (
         np.count_nonzero(each) for each in (found.directions.sticks, found.directions.slips)
     )
-    return bool(sticks <= FEW * (sticks + slips))
+    return bool(found.error > most and sticks <= FEW * (sticks + slips))
 
 
 def _slid(
