@@ -235,6 +235,16 @@ def test_largest_error_is_counted_with_the_unknown_ones() -> None:
     assert found == LargestError(half_width=0.1, part=0.025, unknown=1, place=0.0)
 
 
+def test_of_equal_errors_the_first_is_the_largest() -> None:
+    force = {
+        "force": ("time", [4.0, 4.0, 4.0]),
+        "force_error": ("time", [0.05, 0.1, 0.1 * (1 + 1e-9)]),
+    }
+    found = largest_error(xr.Dataset(force, {"time": [0.0, 1.0, 2.0]}), "force")
+    assert found is not None
+    assert found.place == 1.0
+
+
 def test_stored_result_has_sizes_and_values(tmp_path: Path) -> None:
     xr.Dataset({"force": ("time", [1.0, 2.0])}).to_netcdf(tmp_path / "result.nc")
     with stored_result(tmp_path) as found:

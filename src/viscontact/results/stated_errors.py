@@ -16,6 +16,9 @@ from viscontact.results.variables import SCALARS, error_name
 if TYPE_CHECKING:
     from viscontact.results.stored_result import Result
 
+#: Relative difference of error bars that are one.
+SAME_ERROR = 1e-4
+
 #: In place of its curve over time.
 NOT_DRAWN = "not drawn: smaller cells give more"
 #: Why the stated error of a value is infinite.
@@ -87,8 +90,9 @@ def largest_error(ds: Result, name: str) -> LargestError | None:
     unknown = int(given.sum() - known.sum())
     if not known.any():
         return LargestError(np.nan, np.nan, unknown, np.nan)
-    at = int(np.where(known, error, -1.0).argmax())
-    half_width, largest = float(error[at]), float(np.abs(values[given]).max())
+    half_width, largest = float(error[known].max()), float(np.abs(values[given]).max())
+    # Of equal ones, as of a load that is held, the first: rounding does not choose among them.
+    at = int((known & (error >= (1 - SAME_ERROR) * half_width)).argmax())
     part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
     return LargestError(half_width, part, unknown, float(ds[run_axis(ds).name][at]))
 
