@@ -4,7 +4,7 @@ A small change y of the attraction moves the surfaces by z = S y where they do n
 contact and the load held, and this changes the attraction by D z, D = -sigma'. The energy is least
 where the largest eigenvalue of D S is below 1 (the change dies out in the descent), and a state
 ends where it reaches 1. S is symmetric and positive: the eigenvalue is the largest one of D in the
-metric of S, which the Rayleigh-Ritz method finds from few vectors, from below.
+metric of S, which the Rayleigh-Ritz method finds from few vectors.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from viscontact.mechanics.contact.rigid_balance import Constraints
 #: percent of spheres, the change of the state before mostly one of up to two; on a rough surface,
 #: where many places compete, the factor is up to 18 % too small, 3 % in the median. Under one that
 #: rises first, changes of a ring compete: the factor of a sphere is up to 15 % too small near its
-#: jumps and 40 % between them, and more where the search begins with the change before.
+#: jumps and 40 % between them. It would err by more from the change before, which is not used.
 VECTORS, VECTORS_RISING = 2, 4
 
 #: Part of a returned change that is new, up to which the one from the state before is the change
