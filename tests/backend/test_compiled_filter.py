@@ -88,14 +88,18 @@ def fields(
     return random.standard_normal((rows, columns)), random.standard_normal(waves(lengths, even))
 
 
-@settings(max_examples=150, deadline=None)
-@given(
+#: Filters of any field on some part of the lengths, in either precision.
+filters = given(
     seed=st.integers(0, 2**32 - 1),
     lengths=pairs,
     even=evens,
     parts=st.tuples(*[st.sampled_from([0.0, 0.3, 0.5, 0.7, 1.0])] * 2),
     single=st.booleans(),
 )
+
+
+@settings(max_examples=150, deadline=None)
+@filters
 @example(seed=1, lengths=(256, 200), even=(False, False), parts=(0.5, 0.5), single=False)
 @example(seed=1, lengths=(256, 200), even=(True, True), parts=(0.5, 0.5), single=False)
 @example(seed=1, lengths=(225, 243), even=(True, False), parts=(0.4, 1.0), single=False)
@@ -116,13 +120,7 @@ def test_a_filter_is_the_product_of_the_whole_spectrum_and_the_symbol(
 
 
 @settings(max_examples=100, deadline=None)
-@given(
-    seed=st.integers(0, 2**32 - 1),
-    lengths=pairs,
-    even=evens,
-    parts=st.tuples(*[st.sampled_from([0.0, 0.3, 0.5, 0.7, 1.0])] * 2),
-    single=st.booleans(),
-)
+@filters
 @example(seed=1, lengths=(90, 75), even=(False, False), parts=(0.5, 0.5), single=True)
 def test_units_of_a_symbol_and_a_field_change_no_bit(
     seed: int,
