@@ -34,7 +34,7 @@ grid: {shape: [24, 24], size: [4 mm, 4 mm]}
 output: {fields: [0 s, 5 s]}
 """
 #: The same with so many steps that it lasts until it is stopped.
-LONG_CASE = CASE.replace("steps: 4", "steps: 4000").replace("5 s]}", "5 s], errors: false}")
+LONG_CASE = CASE.replace("steps: 4", "steps: 12000").replace("5 s]}", "5 s], errors: false}")
 
 
 @contextmanager

@@ -24,7 +24,7 @@ def test_a_run_that_met_a_full_disk_goes_on_once_there_is_room(client: TestClien
     before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (250_000, usual[1]))  # of the process of the run, too
     try:
-        run = begun(client, LONG_CASE.replace("4000", "700"))
+        run = begun(client, LONG_CASE.replace("12000", "700"))
         reply = followed(client, run)[-1]
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, usual)

@@ -66,7 +66,7 @@ def serving(tmp_path: Path) -> Iterator[Callable[[], Served]]:
 def test_a_server_stopped_in_mid_run_shows_the_run_again_and_continues_it(
     serving: Callable[[], Served], tmp_path: Path, number: int
 ) -> None:
-    text = LONG_CASE.replace("4000", "2400")
+    text = LONG_CASE.replace("12000", "4000")
     first = serving()
     run = begun(first.client, text)
     waiting = [begun(first.client, text) for _ in range(2)][-1]
@@ -80,7 +80,7 @@ def test_a_server_stopped_in_mid_run_shows_the_run_again_and_continues_it(
     reply = status(second.client, run)
     assert reply["state"] == "interrupted"
     assert reply["resumable"]
-    assert 3 < reply["step"] < 2400
+    assert 3 < reply["step"] < 4000
     assert status(second.client, waiting)["state"] == "interrupted"
     for each in (run, waiting):
         second.client.post(f"/api/runs/{each}/resume")
