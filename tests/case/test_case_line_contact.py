@@ -62,10 +62,11 @@ def test_command_line(tmp_path, monkeypatch, capsys):
     assert main(["plot", "case", "hysteresis"]) == 2
 
 
+@pytest.mark.parametrize("periodic", [", periodic: false", ""])
 @pytest.mark.parametrize("command", ["run", "check"])
-def test_a_cylinder_without_period_is_refused(tmp_path, monkeypatch, capsys, command):
+def test_a_cylinder_without_period_is_refused(tmp_path, monkeypatch, capsys, command, periodic):
     monkeypatch.chdir(tmp_path)
-    text = CASE.replace("periodic: [true, false]", "periodic: false").replace("[1, 48]", "[8, 48]")
+    text = CASE.replace(", periodic: [true, false]", periodic).replace("[1, 48]", "[8, 48]")
     (tmp_path / "case.yaml").write_text(text)
     assert main([command, "case.yaml"]) == 2
     assert "case.yaml:6: grid.periodic: the body continues along x" in capsys.readouterr().err

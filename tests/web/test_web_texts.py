@@ -37,8 +37,6 @@ def test_lightness_is_inverted_on_a_dark_page() -> None:
 def test_problem_has_message_key_and_line() -> None:
     found = problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
     assert found == InputProblem(message="cannot read it", path="load.force", line=6)
-    found = problem_of("a/case.yaml:6: motion: motion.rolling: give it", Path("a/case.yaml")).path
-    assert found == "motion.rolling"
     found = problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
     assert found == InputProblem(message="pmma.csv: no such file", path="", line=None)
 

@@ -109,6 +109,9 @@ def object_problem(document: Document, section: KeyPath, why: str) -> str:
     for name in names:
         behind = r"(\[\d+\])*(: |, | (?=must|has|is|stands|does|goes))"
         why = re.sub(f"^{re.escape(name)}{behind}", "", why)
+    # A key that the file leaves out is named once too, at the line of its section.
+    if key and (left_out := re.match(rf"{re.escape(dotted(key))}((?:\.\w+)+): ", why)):
+        key, why = (*key, *left_out[1].split(".")[1:]), why[left_out.end() :]
     return document.problem(key, why)
 
 

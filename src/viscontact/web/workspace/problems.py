@@ -54,9 +54,6 @@ def problem_of(line: str, path: Path) -> InputProblem:
     key = _KEY.match(line)
     where = key[1] if key and _is_key(key[1], number) else ""
     line = line[key.end() :] if key and where else line
-    # A key that is missing in the file stands behind its section.
-    if where and (key := _KEY.match(line)) and key[1].startswith(f"{where}."):
-        where, line = key[1], line[key.end() :]
     message = without_folder(line, path.parent)
     if message.startswith("no such file"):
         message += "; upload it, or open it together with the case"
