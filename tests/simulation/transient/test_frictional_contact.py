@@ -79,6 +79,31 @@ def _growing(run):
     return replace(run, problem=replace(run.problem, grid=None))
 
 
+def stiffness_along(tangential):
+    """Tangential stiffness along x and y, where no symmetry of the grid keeps the ball in place."""
+    times, shifted = [0.05, 0.5, 1.0, 2.0], replace(GRID, centre=GRID.cell_size)
+    elastic = vc.Material(vc.Elastic(1e6), 0.5)
+    states = march(vc.step(0.1), tangential, times, elastic, shifted)
+    return (
+        [state.tangential_stiffness_x for state in states],
+        [state.tangential_stiffness_y for state in states],
+    )
+
+
+def test_a_body_that_only_turns_shows_no_stiffness_along_the_axes():
+    assert np.isnan(stiffness_along(vc.TangentialHistory([0, 1], rotation=[0, 1e-2]))).all()
+
+
+def test_stiffness_is_that_of_a_body_that_moves():
+    """NaN across it and at rest; 8 a G / (2 - v), Mindlin (1949), J. Appl. Mech. 16, 259."""
+    across, along = stiffness_along(vc.TangentialHistory([0, 1], displacement_y=[0, 2e-5]))
+    assert np.isnan([*across, along[-1]]).all()
+    # Before slip lowers it by more than 2 %; the radius is Hertz's.
+    radius = (3 * 0.1 * 0.01 * (1 - 0.5) / (8 * 1e6)) ** (1 / 3)
+    assert along[0] == close_to(8 * radius * 1e6 / 1.5, rel=0.02)
+    assert along[:3] == sorted(along[:3], reverse=True)
+
+
 def test_the_normal_contact_is_that_without_friction():
     with_friction = march(vc.step(0.1), SHAKEN["x"], [0.5, 1.0, 2.0])
     without = list(vc.march(BALL, RUBBER, vc.step(0.1), GRID, [0.5, 1.0, 2.0]))

@@ -17,6 +17,9 @@ from viscontact.simulation.transient.slip_step import SlipStep
 #: Gap over the displacement from which on a cell that enters was apart before.
 TOUCHING = 1e-6
 
+#: Part of the shift of a body, turning included, below which a change of it counts as rounding.
+AT_REST = 1e-7
+
 
 def slip_scalars(
     run: RunSetup, duration: float, before: SlipState, after: SlipState, step: StepSlip
@@ -25,8 +28,9 @@ def slip_scalars(
     # Without a datum displacements are not known.
     grid, has_datum = run.grid, run.has_datum
     motion = after.motion if has_datum else np.full(3, math.nan)
-    stiffness = _stiffness(before, after) if has_datum else (math.nan, math.nan)
     sticks, touches = np.count_nonzero(step.state == 1), np.count_nonzero(step.state)
+    radius = math.sqrt(touches * grid.cell_area / math.pi)
+    stiffness = _stiffness(before, after, radius) if has_datum else (math.nan, math.nan)
     lost = after.heat - before.heat
     return {
         "tangential_force_x": float(after.forces[0]),
@@ -89,9 +93,13 @@ def grip_of(grid: Grid, step: SlipStep, after: SlipState, slip_fraction: float) 
     return Grip(step.time, force, step.carried, cells, slipping, held, on_line, approached)
 
 
-def _stiffness(before: SlipState, after: SlipState) -> tuple[float, float]:
-    """Changes of the forces over those of the shifts in the step; NaN at rest [N/m]."""
+def _stiffness(before: SlipState, after: SlipState, radius: float) -> tuple[float, float]:
+    """Changes of the forces over those of the shifts in the step; NaN at rest [N/m].
+
+    `radius` is that of a circle as large as the contact [m].
+    """
     moved, added = after.motion - before.motion, after.forces - before.forces
+    moved[np.abs(moved) <= AT_REST * np.abs(after.motion * (1.0, 1.0, radius)).max()] = 0.0
     added[np.abs(added) < ROUNDING * np.abs(after.forces)] = 0.0
     along_x, along_y = (
         float(added[axis] / moved[axis]) if moved[axis] else math.nan for axis in (0, 1)
