@@ -76,6 +76,57 @@ def test_result_is_that_of_steady(finished: Path) -> None:
         assert (ds.tangential_force_y_per_length == ds.tangential_force_y / 0.1).all()
 
 
+@pytest.fixture(scope="module")
+def coupled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A saved result of coupled bodies, each creepage of which has a contact of its own."""
+    polymer = vc.Material(vc.Zener(2e6, 6e6, 6e5), poisson_ratio=0.38)
+    given = {"friction": 0.5, "creepage": [0.01, 0.03], "errors": False}
+    grid = vc.Grid((1, 24), (0.1, 0.016), periodic=(True, False))
+    cylinder, load = vc.Paraboloid(float("inf"), 0.03), vc.step(200.0, tilt_y=0.0)
+    with pytest.warns(vc.AccuracyWarning):
+        ds = vc.steady(cylinder, polymer, load, [0.01, 0.04], grid=grid, **given)
+    path = tmp_path_factory.mktemp("coupled") / "saved.nc"
+    vc.save(ds, path)
+    return path
+
+
+def test_commands_take_the_contact_at_one_creepage_of_coupled_bodies(
+    coupled: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for command in (["show"], ["report"], ["export"], ["plot", "stick-map"]):
+        words = [command[0], str(coupled), *command[1:]]
+        assert main(words) == 2
+        said = capsys.readouterr().err
+        assert said.count("\n") == 1
+        assert "choose one of 1 %, 3 %" in said
+        assert "--creepage '1 %'" in said
+        into = {"report": ["-o", "a.html"], "plot": ["-o", "a.png"]}.get(command[0], [])
+        assert main([*words, "--creepage", "3 %", *into]) == 0
+        if command == ["export"]:
+            (row, *_) = csv.DictReader(io.StringIO(capsys.readouterr().out))
+            with vc.open_results(coupled) as ds:
+                peak = float(ds.peak_pressure[0, 1])
+            assert float(row["peak_pressure [Pa]"]) == peak
+        capsys.readouterr()
+    # A figure of all creepages needs no choice.
+    assert main(["plot", str(coupled), "traction-creepage", "-o", "b.png"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("2 %", "--creepage: must be one of those of the result (0.01, 0.03), got 0.02"),
+        ("2 mm", "--creepage: '2 mm' is no ratio; write e.g. '1 %'"),
+        ("much", "--creepage: cannot read 'much' as a number with a unit"),
+    ],
+)
+def test_creepages_that_a_result_does_not_have_are_refused(
+    coupled: Path, capsys: pytest.CaptureFixture[str], text: str, said: str
+) -> None:
+    assert main(["show", str(coupled), "--creepage", text]) == 2
+    assert capsys.readouterr().err == f"{said}\n"
+
+
 def test_saved_result_is_opened_as_it_was(finished: Path, tmp_path: Path) -> None:
     with vc.open_results(finished) as ds:
         vc.save(ds.load(), tmp_path / "again.nc")

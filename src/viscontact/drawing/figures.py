@@ -42,6 +42,7 @@ class FigureEntry:
     #: Keywords beside `width`: "times" or "speeds", options of the command line, "progress".
     takes: tuple[str, ...] = ("times",)
     at_instants: bool = False  # fields of the stored instants or speeds next to the given ones
+    over_creepage: bool = False  # of all creepages, where each has a contact of its own, too
     any_time: bool = False  # its times may lie outside the run
     is_animation: bool = False
     reported: Reported | None = None  # None: neither in reports nor on the page
@@ -159,6 +160,7 @@ TABLE = (
         "traction-creepage",
         of="speed",
         takes=(),
+        over_creepage=True,
         reported=Reported(
             "friction", "Traction over creepage", "traction_creepage", of_use="has_creepages"
         ),

@@ -69,6 +69,11 @@ def has_contacts_over_creepage(results: Result) -> bool:
     return "force" in results and "creepage" in results["force"].dims
 
 
+def listed_creepages(results: Result) -> str:
+    """The creepages of a result, in words."""
+    return ", ".join(f"{100 * each:g} %" for each in results["creepage"].values.tolist())
+
+
 def in_order(results: xr.Dataset) -> xr.Dataset:
     """Return a result over speed from the slowest to the fastest; others unchanged."""
     if run_axis(results).is_history:

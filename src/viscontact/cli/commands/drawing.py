@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+from viscontact.cli.commands.showing import AtCreepage
 from viscontact.cli.declared import argument, option
 from viscontact.drawing.figures import compared_names, names_of
 
@@ -107,6 +108,7 @@ def plot(
         option("--seconds", help="Duration of an animation in seconds; 8 by default."),
     ] = None,
     fps: Annotated[float | None, option("--fps", help="Frames per second; 15 by default.")] = None,
+    creepage: AtCreepage = None,
 ) -> None:
     """Draw a figure or an animation of a run, or the response of a sweep.
 
@@ -119,7 +121,7 @@ def plot(
         **{"scale": scale, "over": over},
         **{"seconds": seconds, "fps": fps},
     }
-    draw(directory, figure, times or [], output, options, speeds or [])
+    draw(directory, figure, times or [], output, options, speeds or [], creepage)
 
 
 def compare(

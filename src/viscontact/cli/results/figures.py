@@ -32,6 +32,7 @@ def draw(
     output: Path | None,
     options: Options | None = None,
     speeds: Sequence[str] = (),
+    creepage: str | None = None,
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
@@ -43,9 +44,11 @@ def draw(
     require_suffix(plot, file, suffixes)
     draw_it, counts = getattr(plot, entry.drawn_by), "progress" in entry.takes
     if entry.of == "sweep":
+        if creepage is not None:
+            choice.refuse("creepage")
         save(plot, file, draw_it, _sweep(figure, directory), **given)
         return file
-    with checked_result(directory) as ds:
+    with checked_result(directory, creepage, several=entry.over_creepage) as ds:
         _require_within(choice, ds, directory)
         _note(early_end(ds), choice.drawn_instead(ds))
         if entry.is_animation:

@@ -22,7 +22,7 @@ from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.run_axis import run_axis
 from viscontact.results.shown_rows import shown_rows
 from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
-from viscontact.results.stored_result import StoredResult
+from viscontact.results.stored_result import Result
 from viscontact.results.variables import AXES, SCALARS, Place, shown_in, shown_name
 from viscontact.units.formatting import (
     format_number,
@@ -39,7 +39,7 @@ _GAP, _TO_SPARE = 2, 8
 
 
 def print_history(
-    ds: StoredResult, directory: Path, *, everything: bool = False, errors: bool = False
+    ds: Result, directory: Path, *, everything: bool = False, errors: bool = False
 ) -> None:
     """Print scalars over time or speed in readable units, with their errors if requested."""
     if errors and not has_errors(ds):
@@ -65,7 +65,7 @@ def print_history(
         console.warn(line)
 
 
-def _shown_scalars(ds: StoredResult) -> list[str]:
+def _shown_scalars(ds: Result) -> list[str]:
     """Scalars of the table; over speed with the friction, and without a constant force."""
     shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
     if run_axis(ds).is_history:
@@ -75,7 +75,7 @@ def _shown_scalars(ds: StoredResult) -> list[str]:
     return [*friction, *(name for name in shown if name not in left_out)]
 
 
-def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[str]:
+def _footers(ds: Result, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Lines about the loss per cycle and about errors."""
     if not run_axis(ds).is_history and not prescribes_approach(ds):
         force = shown_name("force", ds)
@@ -99,12 +99,12 @@ def _footers(ds: StoredResult, shown: list[str], *, errors: bool) -> Iterator[st
     yield from accuracy_lines(ds, shown)
 
 
-def _loss_error(ds: StoredResult) -> str:
+def _loss_error(ds: Result) -> str:
     found = largest_error(ds, "loss_per_cycle")
     return f", within {format_percent(found.part)}" if found and np.isfinite(found.part) else ""
 
 
-def _largest_value(ds: StoredResult, name: str) -> float:
+def _largest_value(ds: Result, name: str) -> float:
     return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
 
 
@@ -123,9 +123,7 @@ class _HistoryColumn:
         return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
 
 
-def _columns(
-    ds: StoredResult, names: list[str], rows: Integers, *, errors: bool
-) -> list[_HistoryColumn]:
+def _columns(ds: Result, names: list[str], rows: Integers, *, errors: bool) -> list[_HistoryColumn]:
     columns, axis = [], run_axis(ds)
     for name in names:
         largest = _largest_value(ds, name)
@@ -139,7 +137,7 @@ def _columns(
     return columns
 
 
-def _table(ds: StoredResult, columns: list[_HistoryColumn], *, narrow: bool) -> Table:
+def _table(ds: Result, columns: list[_HistoryColumn], *, narrow: bool) -> Table:
     stated = any(column.foot not in ("", format_error(np.nan)) for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(
@@ -158,9 +156,7 @@ def _table(ds: StoredResult, columns: list[_HistoryColumn], *, narrow: bool) -> 
     return table
 
 
-def _cells(
-    ds: StoredResult, name: str, rows: Integers, factor: float, *, errors: bool
-) -> list[str]:
+def _cells(ds: Result, name: str, rows: Integers, factor: float, *, errors: bool) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name in AXES:
         # Adaptive steps are short at first: "0.005" takes less space than "0.005000".

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def write_report(directory: Path, output: Path | None) -> Path:
+def write_report(directory: Path, output: Path | None, creepage: str | None = None) -> Path:
     """Write a page or, by its suffix, a PDF; return its path."""
     if output is not None and output.suffix.lower() not in (".html", ".htm", ".pdf"):
         stem = output.stem
@@ -27,10 +27,12 @@ def write_report(directory: Path, output: Path | None) -> Path:
     kind = "pdf" if as_pdf else "report"
     try:
         if (directory / MANIFEST_NAME).is_file():
+            if creepage is not None:
+                refuse("--creepage: applies to the report on one run; leave it out")
             write = getattr(package, f"write_sweep_{kind}")
             write(_joined(directory), page, title=directory.resolve().name)
             return page
-        with checked_result(directory) as ds:
+        with checked_result(directory, creepage) as ds:
             if ended := early_end(ds):
                 say(ended)
             getattr(package, f"write_{kind}")(ds, page, label=_run_label(directory.resolve()))

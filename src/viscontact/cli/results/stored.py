@@ -12,14 +12,15 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.mechanics.state import Outcome
 from viscontact.results.damage import DamagedFileError
 from viscontact.results.recorded_case import case_of
-from viscontact.results.run_axis import run_axis
+from viscontact.results.run_axis import has_contacts_over_creepage, listed_creepages, run_axis
 from viscontact.results.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.results.stated_sizes import StatedSizeError
-from viscontact.results.stored_result import Result, StoredResult, stored_result
+from viscontact.results.stored_result import Result, stored_result
 from viscontact.results.variables import REQUIRED, scalars_in, scalars_of
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.progress_made import progress_made
+from viscontact.units.parsing import parse_any_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,19 +29,45 @@ _Result = TypeVar("_Result", bound=Result)
 
 
 @contextmanager
-def checked_result(path: Path) -> Iterator[xr.Dataset]:
-    """Open the result of a run, or refuse it with a message."""
+def checked_result(
+    path: Path, creepage: str | None = None, *, several: bool = False
+) -> Iterator[xr.Dataset]:
+    """Open the result of a run, at one of its creepages if given, or refuse it with a message.
+
+    `several` contacts of coupled bodies, one at each creepage, are refused unless they are wanted.
+    """
     from viscontact.results.netcdf import open_results  # xarray takes half a second to import
 
-    with _open_checked(path, open_results) as ds:
+    with _open_checked(path, open_results) as whole:
+        ds = whole if creepage is None else _at_creepage(whole, creepage)
+        if not (several and has_contacts_over_creepage(ds)):
+            _require_history(path, ds)
         yield ds
 
 
 @contextmanager
-def checked_history(path: Path) -> Iterator[StoredResult]:
-    """Open the result of a run without xarray, or refuse it with the same messages."""
+def checked_history(path: Path, creepage: str | None = None) -> Iterator[Result]:
+    """Open the result of a run, without xarray where it is whole, with the same messages."""
+    if creepage is not None:
+        with checked_result(path, creepage) as ds:
+            yield ds
+        return
     with _open_checked(path, stored_result) as found:
+        _require_history(path, found)
         yield found
+
+
+def _at_creepage(ds: xr.Dataset, creepage: str) -> xr.Dataset:
+    """Result at one of its creepages, or refuse it."""
+    from viscontact.results.rolling import at_creepage  # as xarray
+
+    try:
+        value, unit = parse_any_quantity(creepage)
+        if unit != "1":
+            raise ValueError(f"creepage: {creepage!r} is no ratio; write e.g. '1 %'")
+        return at_creepage(ds, value)
+    except ValueError as error:
+        refuse(f"--{error}" if str(error).startswith("creepage:") else f"--creepage: {error}")
 
 
 @contextmanager
@@ -58,14 +85,19 @@ def _open_checked(path: Path, open_file: Callable[[Path], _Result]) -> Iterator[
         refuse(_unreadable(path, error))
     try:
         with ds:
-            _require_history(path, ds)
             yield ds
     except DamagedFileError as error:  # noticed when a field was read
         refuse(str(error))
 
 
 def _require_history(path: Path, ds: Result) -> None:
-    """Refuse a file that is not a result, and a result without rows."""
+    """Refuse a file that is not a result, of several contacts in a row, or without rows."""
+    if has_contacts_over_creepage(ds):
+        refuse(
+            f"{path}: its bodies are coupled, and each creepage has a contact of its own; choose "
+            f"one of {listed_creepages(ds)}: show, plot, export and report take e.g. "
+            f"--creepage '{100 * float(ds['creepage'].values[0]):g} %'"
+        )
     axis = run_axis(ds)
     required = [name for name in REQUIRED if name in scalars_of(over=axis.name)]
     missing = [name for name in (axis.name, *required) if name not in ds]

@@ -19,7 +19,12 @@ from viscontact.drawing.svg.overview import Overview
 from viscontact.drawing.svg.panel_drawing import panel_drawing
 from viscontact.drawing.svg.svg_panel import ColouredCells, SvgCurve, map_panel
 from viscontact.results.formatting import format_scalar
-from viscontact.results.run_axis import has_contacts_over_creepage, in_order, run_axis
+from viscontact.results.run_axis import (
+    has_contacts_over_creepage,
+    in_order,
+    listed_creepages,
+    run_axis,
+)
 from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.snapshots import labels_of
 from viscontact.results.summary import headline
@@ -35,7 +40,7 @@ _ARROW = 0.15
 def result_overview(ds: xr.Dataset) -> Overview:
     """Make the overview of a result."""
     if has_contacts_over_creepage(ds):
-        creepages = ", ".join(f"{100 * each:g} %" for each in ds["creepage"].values.tolist())
+        creepages = listed_creepages(ds)
         lead = f"Each creepage ({creepages}) has a contact of its own: at_creepage(...) shows one."
         return Overview(_title(ds), [], lead=lead)
     axis = run_axis(ds)
