@@ -112,6 +112,21 @@ def test_the_normal_contact_is_that_without_friction():
     assert without[-1].traction_x is None
 
 
+def test_bodies_stick_without_traction_until_something_moves_them_along_each_other():
+    """And after it: a force that has come and gone leaves tractions (Mindlin 1953)."""
+    times = [0.5, 1.0, 1.5, 2.0, 2.5]
+    pulled = vc.TangentialHistory([1, 1.5, 2], force_x=[0, 0.02, 0])
+    still, also, *_, released, later = march(vc.step(0.1), pulled, times)
+    for state in (still, also):
+        assert not np.hypot(state.traction_x, state.traction_y).any()
+        assert (state.slip_fraction, state.duality_gap) == (0.0, 0.0)
+        cells = np.count_nonzero(state.pressure)
+        assert state.stick_area == close_to(cells * GRID.cell_area, rel=1e-12)
+    for state in (released, later):
+        assert np.abs(state.traction_x).max() > 0.01 * state.peak_pressure
+        assert state.tangential_force_x == close_to(0.0, abs=1e-9)
+
+
 def test_coupling_is_chosen_by_itself_where_it_cancels():
     """Bodies of one material, or of c J alike, as of ν = 0.2 and 0.35 with these moduli."""
     given = {"times": [1.0], "tangential": SHAKEN["x"], "load": vc.step(0.1)}

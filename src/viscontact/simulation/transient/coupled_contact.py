@@ -43,6 +43,7 @@ from viscontact.simulation.transient.frictional_contact import FrictionalContact
 from viscontact.simulation.transient.frictionless import JointSlip, SlipTrial
 from viscontact.simulation.transient.grid_enlargement import GridEnlargement
 from viscontact.simulation.transient.setup import RunSetup
+from viscontact.simulation.transient.shear_history import ShearStep
 from viscontact.simulation.transient.slip_state import StepSlip, step_slip
 from viscontact.simulation.transient.slip_step import (
     SlipGuess,
@@ -165,6 +166,9 @@ class CoupledContact(FrictionalContact):
     def _respond(self, step: TimeStep) -> CouplingStep:
         return self._memory.respond(step, self._history.respond(step))
 
+    def _earlier(self, region: Region, response: ShearStep) -> None:
+        """None: alternations share the displacement by earlier loads, and add that by pressure."""
+
     def _slip(
         self,
         step: TimeStep,
@@ -180,7 +184,8 @@ class CoupledContact(FrictionalContact):
         moved = self._on(track).along(
             [(now - then)[track.cut] for now, then in zip(later, response.before, strict=True)]
         )
-        known = replace(known, past=known.past + moved[:, *region.within(track)])
+        past = moved[:, *region.within(track)]
+        known = replace(known, past=past if known.past is None else past + known.past)
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way))

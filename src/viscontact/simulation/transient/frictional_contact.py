@@ -78,8 +78,9 @@ class FrictionalContact(Uncoupled):
                 if joint is None
                 else joint.slip
             )
+            cut = self._domain.with_images(region)
             after = before.after(
-                *(contact, found, self._coefficient, grid.cell_area), moves=self._moves
+                *(contact, found, self._coefficient, grid.cell_area), cut=cut, moves=self._moves
             )
         else:
             refuse_force_apart(known)
@@ -132,6 +133,10 @@ class FrictionalContact(Uncoupled):
         track = self._track_of(region)
         return response.past(self._domain, track)[:, *region.within(track)]
 
+    def _earlier(self, region: Region, response: ShearStep) -> Floats | None:
+        """Earlier loads of a region as new ones, if others displace it by nothing [Pa]."""
+        return response.earlier(region) if self._track_of(region) == region else None
+
     def _track_of(self, region: Region) -> Region:
         """Region of earlier loads that displace one."""
         problem = self._run.problem
@@ -149,12 +154,14 @@ class FrictionalContact(Uncoupled):
     ) -> SlipStep:
         """What is known of a step with its normal contact."""
         point = self._load.at(step.time, side=step.side)
+        earlier = self._earlier(region, response)
         return SlipStep(
             step.time,
             self._state,
             contact,
             response,
-            self._past(region, response),
+            self._past(region, response) if earlier is None else None,
+            earlier,
             shift_constraints(self._run, point, self._state.motion),
             self._coefficient,
         )
@@ -163,6 +170,8 @@ class FrictionalContact(Uncoupled):
         self, known: SlipStep, region: Region, start: SlipGuess, tolerance: float
     ) -> StepSlip:
         """Tractions of a step in contact."""
+        if known.is_at_rest and not start.traction.any():
+            return StepSlip.at_rest(known.contact)
         found = solved_on(self._run, self._domain, region, known, start, tolerance)
         slip = step_slip(found, known.constraints, self._domain, region, known.carried)
         return replace(slip, way=self._domain.spread(region, found.way)) if self._moves else slip

@@ -67,6 +67,16 @@ class ShearStep:
             self._pasts[region] = self._past(domain, region)
         return self._pasts[region]
 
+    def earlier(self, region: Region) -> Floats | None:
+        """New tractions that displaced a region as the earlier ones do in the step [Pa].
+
+        None where these displace it by several creep functions.
+        """
+        if len(self.responses) > 1:
+            return None
+        cut, (response,) = region.cut, self.responses
+        return (response.history_on(cut) - self.before[0][:, *cut]) / response.compliance
+
     def _past(self, domain: ShearDomain, region: Region) -> Floats:
         cut, parts = region.cut, domain.parts(region)
         found = np.zeros((2, *region.shape))

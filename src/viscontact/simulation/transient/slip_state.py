@@ -40,6 +40,12 @@ class StepSlip:
         nothing, nowhere = np.zeros((2, *shape)), np.zeros(shape, np.int8)
         return cls(nothing, nothing, nowhere, constraints.motions, np.zeros(3))
 
+    @classmethod
+    def at_rest(cls, contact: NormalContact) -> StepSlip:
+        """Step of bodies that nothing moves along each other: all cells stick without traction."""
+        nothing, sticks = np.zeros((2, *contact.gap.shape)), contact.gripping.astype(np.int8)
+        return cls(nothing, nothing, sticks, np.zeros(3), np.zeros(3), way=nothing)
+
 
 def step_slip(
     found: SlipSolution,
@@ -116,20 +122,28 @@ class SlipState:
         coefficient: float,
         cell_area: float,
         *,
+        cut: tuple[slice, slice] = (slice(None), slice(None)),
         moves: bool = False,
     ) -> SlipState:
-        """State after a step in contact, of a body that moves over the surface or stands."""
+        """State after a step in contact, of a body that moves over the surface or stands.
+
+        The contact is in a part of the grid.
+        """
         # The friction of the mean pressure over the way of the slip: exact where both grow
         # linearly, while the mean traction over it loses a quarter in one step.
-        lost = lengths(step.slip)
-        lost *= self.contact.pressure + contact.pressure
+        lost = lengths(step.slip[:, *cut])
+        lost *= self.contact.pressure[cut] + contact.pressure[cut]
         lost *= coefficient / 2
+        slip, work = np.zeros(self.slip.shape), self.work.copy()
+        slip[:, *cut] = (self.slip[:, *cut] + step.slip[:, *cut]) * contact.in_contact[cut]
+        work[cut] += lost
         if moves:
-            lost += self._lost_on_leaving(contact, step, coefficient)
+            left = self._lost_on_leaving(contact, step, coefficient)
+            work, lost = work + left, lost + left[cut]
         return SlipState(
             step.traction,
-            (self.slip + step.slip) * contact.in_contact,
-            self.work + lost,
+            slip,
+            work,
             contact,
             self.touched | contact.in_contact,
             self.motion + step.motion,

@@ -45,9 +45,18 @@ class SlipStep:
     before: SlipState
     contact: NormalContact  # at its end
     response: ShearStep
-    past: Floats  # displacement along the surface of a region in it, but by new tractions [m]
+    # Displacement along the surface of a region in it, but by new tractions [m]; or new tractions
+    # that caused the same [Pa].
+    past: Floats | None
+    earlier: Floats | None
     constraints: ShiftConstraints
     coefficient: float  # of friction [-]
+
+    @property
+    def is_at_rest(self) -> bool:
+        """True if nothing moves the bodies along each other, now or from earlier."""
+        loads = self.constraints.resultants, self.constraints.motions, self.past, self.earlier
+        return not any(load is not None and load.any() for load in loads)
 
     @property
     def carried(self) -> float:
@@ -158,6 +167,7 @@ def _slip_problem(
         entry * gripping,
         step.constraints,
         LEAST_SHIFT * step.coefficient * contact.displacement,
+        step.earlier,
     )
 
 

@@ -56,10 +56,22 @@ def under(forces=(0.0, 0.0, 0.0), motions=(None, None, None)) -> ShiftConstraint
     )
 
 
-def solved(block, pressure, constraints, *, before=None, entry=None, start=None, tolerance=1e-8):
-    """Solution of a step of an elastic body from the traction before it."""
-    nothing = np.zeros((2, *pressure.shape))
-    past = nothing if before is None else -COMPLIANCE * block.convolution.apply(before)
+def solved(
+    block,
+    pressure,
+    constraints,
+    *,
+    before=None,
+    entry=None,
+    start=None,
+    tolerance=1e-8,
+    as_loads=False,
+):
+    """Solution of a step of an elastic body from the traction before it, given as such or moved."""
+    nothing, earlier = np.zeros((2, *pressure.shape)), None
+    past = None if before is None else -COMPLIANCE * block.convolution.apply(before)
+    if as_loads:
+        past, earlier = None, -before
     gripping = NormalContact(pressure, nothing[0], pressure > 0).gripping
     problem = SlipProblem(
         gripping,
@@ -69,6 +81,7 @@ def solved(block, pressure, constraints, *, before=None, entry=None, start=None,
         np.zeros((3, *pressure.shape)) if entry is None else entry,
         constraints,
         1e-12,
+        earlier,
     )
     first = before if start is None else start
     return solve_slip(problem, block, nothing if first is None else first, tolerance=tolerance)

@@ -155,6 +155,18 @@ def test_cells_under_a_pressure_of_rounding_carry_nothing():
         np.testing.assert_allclose(found.traction, without.traction, atol=1e-5 * PEAK)
 
 
+def test_earlier_tractions_count_as_their_displacement():
+    """Linearity: J T (q + e) is J T q and the displacement by e; on the way back from 0.8 μ W."""
+    grid, pressure = hertz(24)
+    block, constraints = shear_block(grid, 0.6), under((-0.3 * LIMIT, 0.2 * LIMIT, 0.0))
+    before = solved(block, pressure, under((0.8 * LIMIT, 0.0, 0.0))).traction
+    moved = solved(block, pressure, constraints, before=before)
+    loaded = solved(block, pressure, constraints, before=before, as_loads=True)
+    assert loaded.converged
+    np.testing.assert_allclose(loaded.traction, moved.traction, atol=1e-6 * PEAK)
+    assert loaded.motion == close_to(moved.motion, rel=1e-6, abs=1e-12)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_random_steps_follow_coulombs_law(seed):
     """Steps of force, torque and shift: the law in each cell, balances, and a small duality gap."""

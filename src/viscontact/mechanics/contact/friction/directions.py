@@ -6,7 +6,6 @@ import numpy as np
 
 from viscontact.backend.arrays import Bools, Floats
 from viscontact.backend.lazy_dataclass import dataclass
-from viscontact.mechanics.contact.friction.discs import divided, on_circle
 from viscontact.mechanics.contact.friction.problem import SlipProblem
 
 
@@ -19,27 +18,27 @@ class Directions:
     normal: Floats  # unit vectors along the traction of cells that slip, 0 elsewhere; (2, nx, ny)
     sticks: Bools
     pull: Floats  # λ of cells that slip [m], (nx, ny)
+    held: Floats  # 1 in both, 0 elsewhere
 
     def projected(self, fields: Floats) -> Floats:
         """Components along free directions."""
         x, y = self.normal
         found = fields - self.normal * (x * fields[0] + y * fields[1])
-        found *= self.sticks | self.slips
+        found *= self.held
         return np.asarray(found)
 
     @property
     def matrix(self) -> tuple[Floats, Floats, Floats]:
         """Entries xx, xy and yy of the projector of each cell."""
         x, y = self.normal
-        held = self.sticks | self.slips
-        return held - x * x, -x * y, held - y * y
+        return self.held - x * x, -x * y, self.held - y * y
 
 
 @dataclass(frozen=True, eq=False)
 class ReachedCircles:
-    """Cells in contact, and those whose traction has reached its circle."""
+    """Cells in contact whose traction has reached its circle."""
 
-    held: Bools
+    problem: SlipProblem
     reached: Bools
     normal: Floats  # unit vectors along the traction there, 0 elsewhere; (2, nx, ny)
 
@@ -48,11 +47,14 @@ class ReachedCircles:
         x, y = self.normal
         pull = -(x * slip[0] + y * slip[1])
         slips = self.reached & (pull >= 0)
-        return Directions(slips, self.normal * slips, self.held & ~slips, pull * slips)
+        # Products with truth values take twice the time.
+        there = slips.astype(np.float64)
+        sticks, held = self.problem.in_contact & ~slips, self.problem.held
+        return Directions(slips, self.normal * there, sticks, pull * there, held)
 
 
 def reached_circles(problem: SlipProblem, traction: Floats) -> ReachedCircles:
     """Circles that a traction has reached."""
-    reached = on_circle(traction, problem.bound, problem.in_contact)
-    normal = divided(traction, problem.bound, reached)
-    return ReachedCircles(problem.in_contact, reached, normal)
+    x, y = traction
+    reached = np.asarray(x * x + y * y >= problem.reaching)
+    return ReachedCircles(problem, reached, traction * (problem.inverse_bound * reached))

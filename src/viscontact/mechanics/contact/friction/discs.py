@@ -20,6 +20,11 @@ MOST_HALVINGS = 20
 #: Rounds in which resultants are restored.
 MOST_ROUNDS = 60
 
+#: Part of its circle below which a traction tells no direction in which it could be held there.
+LEAST = 1e-100
+
+TINY = float(np.finfo(np.float64).tiny)
+
 #: Imbalance over the force that friction carries that is left [-].
 BALANCED = 1e-13
 
@@ -110,14 +115,13 @@ class CutOff:
 
     def __init__(self, beyond: Floats, bound: Floats, held: Bools) -> None:
         self._beyond, self._size = beyond, lengths(beyond)
-        self._outside = (self._size > bound) | (held & (self._size > 0))
-        share = bound / np.where(self._outside, self._size, 1.0)
-        self._share = np.where(self._outside, share, 1.0)
+        self._least = np.where(held, LEAST, 1.0) * bound + TINY
+        self._share = bound / np.maximum(self._size, self._least)  # 1 within the circle
         self.traction: Floats = beyond * self._share
 
     def slopes(self, weight: Floats) -> tuple[Floats, Floats, Floats]:
         """Change with a rigid motion by a weight: entries xx, xy and yy for each cell."""
         # Beyond the circle only the tangent is left, shortened.
-        x, y = divided(self._beyond, self._size, self._outside)
+        x, y = divided(self._beyond, self._size, self._size > self._least)
         left = weight * self._share
         return left * (1 - x * x), -left * x * y, left * (1 - y * y)

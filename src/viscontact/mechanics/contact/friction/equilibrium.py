@@ -148,8 +148,8 @@ def _slid(
 
 def _is_better(new: SlipResidual, old: SlipResidual) -> bool:
     """True if the objective falls, or the residual where it differs by rounding only."""
-    change = new.objective - old.objective
-    if abs(change) > ROUNDING * abs(old.objective):
+    change = new.rise_since(old)
+    if abs(change) > ROUNDING * old.work:
         return change < 0
     return new.error < old.error
 
@@ -164,7 +164,7 @@ def _judged(
 ) -> SlipResidual:
     """Residual of a traction by a fresh convolution, near a motion."""
     operator = block.search if single else block.convolution
-    moved = operator.apply(traction) if traction.any() else np.zeros(traction.shape)
+    moved = problem.displaced(operator, traction)
     return slip_residual(problem, block.shift, traction, moved, motion)
 
 

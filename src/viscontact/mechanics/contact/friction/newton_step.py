@@ -10,14 +10,17 @@ import numpy as np
 from viscontact.backend.arrays import Bools, Floats, Singles
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions
-from viscontact.mechanics.contact.friction.discs import divided
 from viscontact.mechanics.contact.friction.problem import ShearBlock, SlipProblem
 from viscontact.mechanics.contact.friction.residual import SlipResidual
 from viscontact.mechanics.contact.friction.rigid_shift import pseudo_inverse
 
 #: Least and largest part of the residual that the conjugate gradients leave, and its ratio to the
 #: residual between them: far away, where cells that slip are found, more would be in vain.
-LEAST_LEFT, MOST_LEFT, LEFT = 0.01, 0.3, 10.0
+LEAST_LEFT, MOST_LEFT, LEFT = 0.01, 0.3, 20.0
+
+#: Factor by which they leave less than that, if the step is then the last one: another one takes as
+#: long as two search directions.
+WITHIN_REACH = 3.0
 
 #: Imbalance over what friction carries that needs no restoring: that of balanced tractions.
 RESTORED = 1e-12
@@ -53,9 +56,9 @@ class NewtonSystem:
         return self.directions.normal.astype(np.float32)
 
     @cached_property
-    def held(self) -> Bools:
-        """Cells under pressure."""
-        return self.directions.sticks | self.directions.slips
+    def held(self) -> Singles:
+        """1 in cells under pressure, 0 elsewhere."""
+        return self.directions.held.astype(np.float32)
 
     @cached_property
     def entry(self) -> Singles:
@@ -65,12 +68,14 @@ class NewtonSystem:
     @cached_property
     def curvature(self) -> Singles:
         """λ/(μ p) of cells that slip [-]."""
-        bound, directions = self.problem.bound * self.unit, self.directions
-        return divided(directions.pull, bound, directions.slips).astype(np.float32)
+        stiff = self.problem.inverse_bound / self.unit
+        return (self.directions.pull * stiff).astype(np.float32)
 
     @cached_property
     def _diagonal(self) -> Singles:
         """Mean of the diagonal over the free directions of a cell [-]."""
+        if not self.problem.enters:
+            return self.curvature
         xx, xy, yy = self.entry
         x, y = self.normal
         tangent = yy * x * x - 2 * xy * x * y + xx * y * y + self.curvature
@@ -94,25 +99,28 @@ class NewtonSystem:
     def projected(self, fields: Singles) -> Singles:
         """Components along free directions."""
         x, y = self.normal
-        along = x * fields[0] + y * fields[1]
-        return np.asarray((fields - self.normal * along) * self.held)
+        found = self.normal * (x * fields[0] + y * fields[1])
+        np.subtract(fields, found, out=found)
+        found *= self.held
+        return np.asarray(found)
 
     def apply(self, step: Singles) -> Singles:
         """The matrix times a step along free directions [-]."""
-        found = np.asarray(self.block.search.apply(step) / self.block.edge, np.float32)
+        found: Singles = self.block.search.apply(step) * np.float32(1 / self.block.edge)
         if self.problem.enters:
             x, y = step
             xx, xy, yy = self.entry
             found[0] += xx * x + xy * y
             found[1] += xy * x + yy * y
-        return np.asarray(self.projected(found) + self.curvature * step)
+        found = self.projected(found)
+        found += self.curvature * step
+        return found
 
     def preconditioned(self, residual: Singles) -> Singles:
         """Approximate inverse: of the half-space where it is soft, of the diagonal elsewhere."""
-        filtered: Singles = self.block.preconditioner.apply(self._share * residual)
-        found: Singles = (
-            self._share * filtered * np.float32(self.block.edge) + self._local * residual
-        )
+        found: Singles = self.block.preconditioner.apply(self._share * residual)
+        found *= self._share * np.float32(self.block.edge)
+        found += self._local * residual
         return self.projected(found)
 
 
@@ -228,7 +236,8 @@ def newton_step(
 def _forcing(error: float, tolerance: float) -> float:
     """Part of a residual that conjugate gradients leave."""
     wanted = min(max(LEFT * error, LEAST_LEFT), MOST_LEFT)
-    return max(wanted, min(MOST_LEFT, tolerance / max(error, TINY)))
+    last = tolerance / max(error, TINY)
+    return min(last, MOST_LEFT) if last * WITHIN_REACH >= wanted else wanted
 
 
 def conjugate_gradients(

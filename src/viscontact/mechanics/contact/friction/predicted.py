@@ -49,18 +49,16 @@ def predicted(
     pull = float(np.hypot(*force))
     if pull >= most:
         return np.asarray((force / pull)[:, None, None] * bound)
-    cells = bound > 0
     direction = lacking / size
-    change = _change(given[:, cells], bound[cells], direction, size)
-    given[:, cells] += direction[:, None] * change
-    return given
+    return given + direction[:, None, None] * _change(given, bound, direction, size)
 
 
 def _change(traction: Floats, bound: Floats, direction: Floats, size: float) -> Floats:
     """Change of the tractions of cells along a direction, whose sum is given, if they carry it."""
-    along = direction @ traction
+    (x, y), (to_x, to_y) = traction, direction
+    along, across = to_x * x + to_y * y, to_x * y - to_y * x
     square = bound**2
-    left = np.sqrt(np.maximum(along**2 + square - (traction**2).sum(axis=0), 0.0)) - along
+    left = np.sqrt(np.maximum(square - across**2, 0.0)) - along
     slipped: Bools = left <= SLIPPING * bound
     edge = float((bound * slipped).max()) ** 2
     depth = np.sqrt(np.maximum(square - edge, 0.0))
@@ -68,25 +66,29 @@ def _change(traction: Floats, bound: Floats, direction: Floats, size: float) -> 
     def changed(new: float) -> Floats:
         """Change where the edge of the stick zone is at a square of the bound."""
         slips = square < new
-        fresh = slips > slipped
+        fresh = (slips > slipped).astype(np.float64)
         depths = float((depth * fresh).sum())
         factor = float((left * fresh).sum()) / depths if depths > 0 else 1.0
         sticks = factor * (depth - np.sqrt(np.maximum(square - new, 0.0)))
         return np.asarray(np.where(slips, left, np.minimum(sticks, left)))
 
-    # The secant that keeps the root between its ends, and halves the weight of an end that stays.
-    low, high, found = edge, float(square.max()), changed(edge)
+    # The secant that keeps the root between its ends, and halves the weight of an end that stays
+    # twice; over the cubed radius of what sticks, of which the force on a sphere is linear.
+    deepest, found = float(square.max()), changed(edge)
+    low, high, stays = 0.0, 1.0, ""
     short, over = float(found.sum()) - size, float(left.sum()) - size
     for _ in range(MOST_TRIALS):
         if not short < -MET * size or not over > 0:
             break
         middle = (low * over - high * short) / (over - short)
-        found = changed(middle)
+        found = changed(deepest - (deepest - edge) * (1 - middle) ** (2 / 3))
         off = float(found.sum()) - size
         if abs(off) <= MET * size:
             break
         if off < 0:
-            low, short, over = middle, off, over / 2
+            low, short, over = middle, off, over / 2 if stays == "high" else over
+            stays = "high"
         else:
-            high, over, short = middle, off, short / 2
+            high, over, short = middle, off, short / 2 if stays == "low" else short
+            stays = "low"
     return found

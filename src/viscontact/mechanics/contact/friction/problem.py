@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
+import numpy as np
+
 from viscontact.backend.arrays import Bools, Flags, Floats
 from viscontact.backend.lazy_dataclass import dataclass
+from viscontact.mechanics.contact.friction.discs import ON_CIRCLE, divided
 from viscontact.mechanics.contact.friction.rigid_shift import RigidShift, ShiftConstraints
 from viscontact.mechanics.halfspace.shear_filter import PairFilter
 
@@ -20,15 +23,24 @@ class SlipProblem:
 
     in_contact: Bools  # at the end of the step, (nx, ny)
     bound: Floats  # μ p there, 0 elsewhere [Pa], (nx, ny)
-    past: Floats  # displacement in the step by earlier tractions [m], (2, nx, ny)
+    past: Floats | None  # displacement in the step by earlier tractions [m], (2, nx, ny)
     compliance: float  # contact compliance J of the new traction [1/Pa]
     entry: Floats  # compliance D of cells that enter, xx, xy and yy [m/Pa], (3, nx, ny)
     constraints: ShiftConstraints
     displacement_scale: float  # least displacement that errors are relative to [m]
+    # Tractions that displace the surface as earlier ones do in the step, but for `past` [Pa].
+    earlier: Floats | None = None
+
+    def displaced(self, operator: PairFilter, traction: Floats) -> Floats:
+        """Displacement by a traction and the earlier ones per unit compliance [Pa m]."""
+        loads = traction if self.earlier is None else traction + self.earlier
+        return operator.apply(loads) if loads.any() else np.zeros(loads.shape)
 
     def slip_before_shift(self, traction: Floats, unit_displacement: Floats) -> Floats:
         """Slip of the surface under a body that does not move [m], (2, nx, ny)."""
-        found: Floats = self.compliance * unit_displacement + self.past
+        found: Floats = self.compliance * unit_displacement
+        if self.past is not None:
+            found += self.past
         if self.enters:
             x, y = traction
             xx, xy, yy = self.entry
@@ -40,6 +52,22 @@ class SlipProblem:
     def enters(self) -> bool:
         """True if any cell enters."""
         return bool(self.entry.any())
+
+    @cached_property
+    def held(self) -> Floats:
+        """1 in cells in contact, 0 elsewhere."""
+        return self.in_contact.astype(np.float64)
+
+    @cached_property
+    def inverse_bound(self) -> Floats:
+        """Inverse of the bound, 0 where that is [1/Pa]."""
+        return divided(self.held, self.bound, self.bound > 0)
+
+    @cached_property
+    def reaching(self) -> Floats:
+        """Square of the traction at which a cell in contact has reached its circle [Pa²]."""
+        least = self.bound * (1 - ON_CIRCLE)
+        return np.where(self.in_contact, least * least, np.inf)
 
 
 @dataclass(frozen=True, eq=False)

@@ -164,24 +164,37 @@ class ShearDomain:
 
     def spread(self, region: Region, fields: Numbers) -> Numbers:
         """Fields of a region on the whole grid, 0 elsewhere; components x and y, or a scalar."""
-        rows, columns = region.cut
+        rows, columns = self.with_images(region)
         whole = np.zeros((*fields.shape[:-2], *self.grid.shape), fields.dtype)
-        whole[..., rows, columns] = fields
+        whole[..., rows, columns] = self._with_images(fields)
+        return whole
+
+    def with_images(self, region: Region) -> tuple[slice, slice]:
+        """Index of a region and its mirror images in a field of the grid."""
         if self._symmetry is None:
-            return whole
+            return region.cut
+        rows, columns = (
+            slice(count - span[1] if mirrored else span[0], span[1])
+            for count, span, mirrored in zip(
+                self.grid.shape,
+                (region.rows, region.columns),
+                self._symmetry.mirrored,
+                strict=True,
+            )
+        )
+        return rows, columns
+
+    def _with_images(self, fields: Numbers) -> Numbers:
+        """Fields of a region with those of its mirror images."""
         for axis in (-2, -1):
-            if not self._symmetry.mirrored[axis]:
+            if self._symmetry is None or not self._symmetry.mirrored[axis]:
                 continue
-            half = self.grid.shape[axis] // 2
-            index = [slice(None)] * whole.ndim
-            index[axis] = slice(half, None)
-            mirror = np.flip(whole[tuple(index)], axis)
-            index[axis] = slice(0, half)
+            mirror = np.flip(fields, axis)
             if fields.ndim == 3:
                 signs = (1, -1) if self._symmetry.even[axis] else (-1, 1)
                 mirror = mirror * np.array(signs)[:, None, None]
-            whole[tuple(index)] = mirror
-        return whole
+            fields = np.concatenate([mirror, fields], axis)
+        return fields
 
     def parts(self, region: Region) -> Parts:
         """Parts of the response on a region."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from viscontact.backend.arrays import Bools, Floats
+import numpy as np
+
+from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.mechanics.contact.friction.directions import Directions, reached_circles
 from viscontact.mechanics.contact.friction.discs import lengths
@@ -20,14 +22,27 @@ from viscontact.mechanics.contact.friction.rigid_shift import (
 class SlipResidual:
     """Slip under a traction with the rigid motion that fits best, and its errors."""
 
+    traction: Floats  # q [Pa], (2, nx, ny)
     motion: Floats
-    unit_displacement: Floats  # T q, that of a unit compliance [Pa m]
+    unit_displacement: Floats  # T q, that of a unit compliance, with earlier tractions [Pa m]
+    before: Floats  # slip under a body that does not move [m], (2, nx, ny)
     slip: Floats  # w [m], (2, nx, ny)
     along: Floats  # its components along free directions [m]
     directions: Directions
     error: float  # largest deviation from the friction law over the largest displacement [-]
-    objective: float  # what the solution minimises [Pa m]
+    given: float  # work of the resultants on prescribed motions over the area of a cell [Pa m]
     displacement: float  # largest displacement, which errors are relative to [m]
+
+    def rise_since(self, other: SlipResidual) -> float:
+        """What the solution minimises, less that of another traction [Pa m]."""
+        # Exact for a quadratic function, whose gradient is the slip under a body at rest.
+        change = _product(self.traction - other.traction, self.before + other.before)
+        return change / 2 - (self.given - other.given)
+
+    @property
+    def work(self) -> float:
+        """Size of what the solution minimises, about [Pa m]."""
+        return abs(_product(self.traction, self.before) / 2 - self.given)
 
 
 def slip_residual(
@@ -53,18 +68,22 @@ def slip_residual(
     slip = before - rigid
     directions = circles.directions(slip)
     along = directions.projected(slip)
-    largest = max(_largest(before, circles.held), _largest_shift(motion, rigid, circles.held))
+    held = problem.held
+    largest = max(_largest(before, held), _largest_shift(motion, rigid, held))
     scale = max(problem.displacement_scale, largest)
-    work = _product(traction, before) + _product(traction, problem.past)
-    given = float(shift.resultants(traction) @ constraints.motions) / shift.cell_area
+    given = 0.0
+    if constraints.motions.any():
+        given = float(shift.resultants(traction) @ constraints.motions) / shift.cell_area
     return SlipResidual(
+        traction,
         motion,
         unit_displacement,
+        before,
         slip,
         along,
         directions,
         error=_largest(along) / scale,
-        objective=work / 2 - given,
+        given=given,
         displacement=scale,
     )
 
@@ -79,29 +98,30 @@ def _fitting(
     return pseudo_inverse(gram, constraints.free, constraints.arm) @ lacking
 
 
-def _largest_shift(motion: Floats, rigid: Floats, cells: Bools) -> float:
+def _largest_shift(motion: Floats, rigid: Floats, cells: Floats) -> float:
     """Largest length of a rigid motion in some cells."""
     if motion[2] or not cells.any():
         return _largest(rigid, cells)
     return float(lengths(motion[:2]))
 
 
-def _largest(pairs: Floats, cells: Bools | bool = True) -> float:
-    """Largest length of pairs in some cells."""
+def _largest(pairs: Floats, cells: Floats | None = None) -> float:
+    """Largest length of pairs in some cells, of which a field is 1."""
     x, y = pairs
     squares = x * x + y * y
-    return math.sqrt(float((squares if cells is True else squares * cells).max()))
+    return math.sqrt(float((squares if cells is None else squares * cells).max()))
 
 
 def _product(one: Floats, other: Floats) -> float:
     """Sum of products over all components and cells."""
-    return float((one * other).sum())
+    # Not as a product of vectors: BLAS would start threads.
+    return float(np.einsum("kij,kij->", one, other))
 
 
 def duality_gap(problem: SlipProblem, traction: Floats, slip: Floats, scale: float) -> float:
     """Σ (μ p |w| + q·w) over the work of all friction on the largest displacement [-]."""
     # Primal less dual objective of the convex problem: it is not negative, is zero at the solution
     # only, and bounds 1/2 (q - q*)·(J T + D) (q - q*).
-    found = _product(problem.bound, lengths(slip)) + _product(traction, slip)
+    found = float((problem.bound * lengths(slip)).sum()) + _product(traction, slip)
     most = float(problem.bound.sum()) * scale
     return max(found, 0.0) / most if most > 0 else 0.0
