@@ -50,11 +50,16 @@ def test_creepage_is_a_share_of_a_body_that_rolls(tmp_path: Path) -> None:
         for given in ("0.3 %", 0.003):
             found = moving(tmp_path, motion={**motion, "creepage": given}, **grips).motion
             assert found.creepage == close_to(0.003)
+            assert found.lateral_creepage is None
             assert found.rolling is True
+        askew = {**motion, "creepage": 0.0, "lateral_creepage": "0.1 %"}
+        assert moving(tmp_path, motion=askew, **grips).motion.lateral_creepage == close_to(0.001)
     with pytest.raises(ValueError, match=r"motion\.creepage"):
         moving(tmp_path, motion={**TRAVEL, "creepage": "120 %"}, **grips)
     with pytest.raises(ValueError, match="a body that rolls"):
         moving(tmp_path, motion={**TRAVEL, "creepage": 0.1, "rolling": False}, **grips)
+    with pytest.raises(ValueError, match="goes with a creepage, which may be 0"):
+        moving(tmp_path, motion={**TRAVEL, "lateral_creepage": 0.1}, **grips)
 
 
 def test_body_stands_without_a_motion(tmp_path: Path) -> None:

@@ -32,6 +32,7 @@ def rolled(
     half: float = HALF,
     speed: float = 0.1,
     creepage: float | None = None,
+    lateral: float | None = None,
     tangential: Any = None,
     **given: Any,
 ) -> list[vc.ContactState]:
@@ -44,7 +45,8 @@ def rolled(
         (1, count), (1.0, count * cell), centre=(0.0, travel / 2), periodic=(True, False)
     )
     times = np.arange(steps + 1) * cell / speed
-    path = vc.Travel([0.0, times[-1]], y=[0.0, travel], rolling=True, creepage=creepage)
+    creepages = {"creepage": creepage, "lateral_creepage": lateral}
+    path = vc.Travel([0.0, times[-1]], y=[0.0, travel], rolling=True, **creepages)
     return list(
         vc.march(
             vc.Paraboloid(math.inf, RADIUS),

@@ -14,8 +14,9 @@ from verification.rolling_bodies import HELD, MU
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 
-#: C11 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
+#: C11 and C22 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
 LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
+LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
 
 
 def ball_rolled(
@@ -23,14 +24,20 @@ def ball_rolled(
     *,
     cells: int,
     share: float,
+    aside: float | None = None,
     along: str = "y",
     way: float = 8.0,
     speed: float = 0.1,
 ) -> tuple[vc.ContactState, float]:
-    """Two equal balls over a way of some radii, and G a² creepage."""
+    """Two equal balls over a way of some radii, and G a² μ a/R.
+
+    Shares of μ a/R are the creepage, and that to the right.
+    """
     radius, half, modulus = 0.01, 1e-3, 1e6
     compliance = (1 - ratio) / modulus  # of both
-    force, creepage = 4 * half**3 / (3 * radius * compliance), share * MU * half / radius
+    force, whole = 4 * half**3 / (3 * radius * compliance), MU * half / radius
+    creepage = share * whole
+    lateral = None if aside is None else aside * whole
     cell = 2 * half / cells
     steps = round(way * half / cell)
     shape, centre = (cells + 8, cells + 8 + steps), (0.0, steps * cell / 2)
@@ -47,10 +54,13 @@ def ball_rolled(
         indenter_material=body,
         friction=MU,
         motion=vc.Travel(
-            [0.0, times[-1]], **{along: [0.0, steps * cell]}, rolling=True, creepage=creepage
+            [0.0, times[-1]],
+            **{along: [0.0, steps * cell]},
+            creepage=creepage,
+            lateral_creepage=lateral,
         ),
     )
-    return last, modulus * half**2 * creepage
+    return last, modulus * half**2 * whole
 
 
 @pytest.mark.slow
@@ -60,8 +70,38 @@ def test_small_creepage_of_balls_has_the_coefficient_of_kalker(ratio):
     found = []
     for share in (0.02, 0.04):
         last, unit = ball_rolled(ratio, cells=24, share=share)
-        found.append(-last.tangential_force_y / unit)
+        found.append(-last.tangential_force_y / (share * unit))
     assert 2 * found[0] - found[1] == close_to(LONGITUDINAL[ratio], rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", LATERAL)
+def test_small_lateral_creepage_of_balls_has_the_coefficient_of_kalker(ratio):
+    """Q = C22 G a² creepage to the right of the travel, and nothing along it."""
+    found = []
+    for aside in (0.02, 0.04):
+        last, unit = ball_rolled(ratio, cells=24, share=0.0, aside=aside)
+        found.append(last.tangential_force_x / (aside * unit))
+        assert last.tangential_force_y == close_to(0.0, abs=1e-6 * unit)
+    assert 2 * found[0] - found[1] == close_to(LATERAL[ratio], rel=0.01)
+
+
+def test_without_lateral_contraction_tractions_are_along_the_creepage_in_any_direction():
+    """Of ν = 0 both components of traction displace alike: the discs turn with the creepage."""
+    straight, _ = ball_rolled(0.0, cells=8, share=0.5, way=3.0)
+    oblique, _ = ball_rolled(0.0, cells=8, share=0.3, aside=0.4, way=3.0)
+    size = float(np.abs(straight.traction_y).max())
+    np.testing.assert_allclose(oblique.traction_y, 0.6 * straight.traction_y, atol=1e-5 * size)
+    np.testing.assert_allclose(oblique.traction_x, -0.8 * straight.traction_y, atol=1e-5 * size)
+
+
+@pytest.mark.parametrize(("along", "right"), [("y", 1.0), ("x", -1.0)])
+def test_a_large_lateral_creepage_slides_to_the_right_of_the_travel(along, right):
+    """All of the contact slips: friction times force, towards +x from y, towards -y from x."""
+    last, _ = ball_rolled(0.3, cells=8, share=0.0, aside=5.0, way=3.0, along=along)
+    across = {"y": last.tangential_force_x, "x": last.tangential_force_y}[along]
+    assert across == close_to(right * MU * last.force, rel=1e-3)
+    assert last.slip_fraction == 1.0
 
 
 def test_direction_of_rolling_does_not_matter():

@@ -37,6 +37,31 @@ def test_free_rolling_of_dissimilar_bodies_that_stick_has_the_creepage_of_bufler
     assert last.contact_width / 2 == close_to(half, rel=1e-2)
 
 
+def test_coupled_balls_under_opposite_lateral_creepages_are_mirror_images():
+    """Across the plane of the motion, which the pressure is not even about any more."""
+    half, radius, cells, steps = 1e-3, 0.01, 8, 6
+    soft, stiff = vc.Material(vc.Elastic(1e6), 0.2), vc.Material(vc.Elastic(1e7), 0.3)
+    force, cell = 4 * half**3 / (3 * radius * 4.35e-7), 2 * half / cells
+    grid = vc.Grid((16, 16 + steps), (16 * cell, (16 + steps) * cell), centre=(0.0, 3 * cell))
+    states = []
+    for lateral in (0.01, -0.01):
+        path = vc.Travel([0, 1], y=[0, steps * cell], creepage=0.003, lateral_creepage=lateral)
+        *_, last = vc.march(
+            *(vc.Paraboloid(radius, radius), soft, vc.step(force, tilt_x=0.0, tilt_y=0.0), grid),
+            np.linspace(0, 1, steps + 1),
+            indenter_material=stiff,
+            friction=0.3,
+            motion=path,
+        )
+        states.append(last)
+    right, left = states
+    assert right.tangential_force_x == close_to(-left.tangential_force_x, rel=1e-6)
+    assert right.tangential_force_y == close_to(left.tangential_force_y, rel=1e-6)
+    peak = right.peak_pressure
+    np.testing.assert_allclose(right.pressure, left.pressure[::-1], atol=1e-5 * peak)
+    assert np.abs(right.pressure - right.pressure[::-1]).max() > 0.01 * peak
+
+
 def test_exchanged_bodies_creep_the_other_way():
     """The plane is the roller and the roller the plane: q and the creepage change their sign."""
     last, other = (dissimilar(8, 2.0, 0.05, exchanged=each) for each in (False, True))

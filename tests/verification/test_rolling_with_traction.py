@@ -51,6 +51,18 @@ def test_creepage_under_a_held_force_is_that_of_carter(driven):
     assert creepage_error(driven[20]) < creepage_error(driven[10]) / 3
 
 
+@pytest.mark.slow
+def test_a_roller_under_lateral_creepage_has_the_force_of_carter_in_antiplane_strain():
+    """The line moves by 1/(1 - ν) times as much across: twice the creepage at ν = 1/2 (8.3)."""
+    creepage, errors = 2 * FULL * (1 - math.sqrt(1 - 0.64)), []
+    for cells in (10, 20, 40):
+        last = rolled(cells, 40.0, creepage=0.0, lateral=creepage)[-1]
+        assert last.tangential_force_y == close_to(0.0, abs=1e-6 * LINE_LOAD)
+        errors.append(abs(last.tangential_force_x / (MU * LINE_LOAD) - 0.64))
+    assert errors[2] < 2e-4
+    assert errors[0] > 3 * errors[1] > 9 * errors[2]
+
+
 def test_work_of_the_drive_is_heat_of_friction(driven):
     """An elastic body in steady rolling stores nothing."""
     assert power_error(driven[20]) < 4e-3

@@ -77,6 +77,16 @@ class MotionOverTime(MotionSection):
         "positive if it drives",
         examples=["0.3 %"],
     )
+    lateral_creepage: Creepage | None = Field(
+        default=None,
+        description="beside a creepage, which may be 0: speed of the body's surface across its "
+        "travel, over that; positive to the right of it, which is +x for a travel towards +y",
+        examples=["0.1 %"],
+    )
+
+    @property
+    def _creepages(self) -> dict[str, Any]:
+        return {"creepage": self.creepage, "lateral_creepage": self.lateral_creepage}
 
 
 class Travel(MotionOverTime):
@@ -134,7 +144,7 @@ class Travel(MotionOverTime):
         return self._through(table["time"], places)
 
     def _through(self, times: Any, places: dict[str, Any]) -> Motion:
-        return loads.Travel(times, **places, rolling=self.rolling, creepage=self.creepage)
+        return loads.Travel(times, **places, rolling=self.rolling, **self._creepages)
 
 
 class Reciprocating(MotionOverTime):
@@ -151,7 +161,7 @@ class Reciprocating(MotionOverTime):
         return loads.reciprocating(
             *(self.amplitude, self.period, self.cycles, self.along),
             rolling=self.rolling,
-            creepage=self.creepage,
+            **self._creepages,
         )
 
 

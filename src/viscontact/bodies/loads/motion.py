@@ -40,6 +40,9 @@ class Motion(ABC):
     #: Surface speed of a body that rolls over its travel, less 1; None if it is not given [-].
     creepage: float | None = None
 
+    #: Speed of its surface to the right of its travel, over that; None if it is not given [-].
+    lateral_creepage: float | None = None
+
     @abstractmethod
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
@@ -218,6 +221,24 @@ def checked_creepage(creepage: float | None, *, rolling: bool | None) -> float |
         raise ValueError(
             f"creepage goes with a body that rolls, got creepage={creepage!r} and rolling=False; "
             "leave one of them out"
+        )
+    return number
+
+
+def checked_lateral_creepage(lateral: float | None, *, creepage: float | None) -> float | None:
+    """Return a lateral creepage between -1 and 1 beside a creepage, or None; else ValueError."""
+    if lateral is None:
+        return None
+    number = finite("lateral_creepage", lateral, "1")
+    if not -LARGEST_CREEPAGE < number < LARGEST_CREEPAGE:
+        raise ValueError(
+            f"lateral_creepage must lie between -1 and 1, got {lateral!r}: it is the speed of the "
+            "body's surface across its travel over that travel; write 0.003 for 0.3 %"
+        )
+    if creepage is None:
+        raise ValueError(
+            f"lateral_creepage goes with a creepage, which may be 0, got lateral_creepage="
+            f"{lateral!r} without one; give the creepage, too, as in creepage=0.0"
         )
     return number
 

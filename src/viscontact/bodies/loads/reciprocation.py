@@ -16,6 +16,7 @@ from viscontact.bodies.loads.history import Cycle
 from viscontact.bodies.loads.motion import (
     Motion,
     checked_creepage,
+    checked_lateral_creepage,
     checked_rolling,
     refuse_long_path,
 )
@@ -46,7 +47,7 @@ class Reciprocation(Motion):
         Axis of the motion.
     rolling : bool or None
         As in `Travel`.
-    creepage : float or None
+    creepage, lateral_creepage : float or None
         As in `Travel` [-].
     """
 
@@ -56,6 +57,9 @@ class Reciprocation(Motion):
     along: Literal["x", "y"] = "y"
     rolling: bool | None = None
     creepage: float | None = field(default=None, metadata={"unit": "1"})
+    lateral_creepage: float | None = field(
+        default=None, metadata={"unit": "1", "recorded": "if given"}
+    )
 
     def position_at(self, times: ArrayLike) -> Floats:
         """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
@@ -119,6 +123,7 @@ def reciprocating(
     *,
     rolling: bool | None = None,
     creepage: float | None = None,
+    lateral_creepage: float | None = None,
 ) -> Reciprocation:
     """Return a motion back and forth, amplitude sin(2 π t/period), from time 0.
 
@@ -137,6 +142,9 @@ def reciprocating(
         Required where the indenter's material is not elastic.
     creepage : float, optional
         Surface speed of a body that rolls over its travel, less 1, forth and back [-].
+    lateral_creepage : float, optional
+        As in `Travel`; the body's surface moves to the one side forth and to the other one back,
+        as that of a wheel that is askew does [-].
 
     Returns
     -------
@@ -148,7 +156,7 @@ def reciprocating(
     ValueError
         If amplitude or period is not positive and finite, cycles is not a whole number of at
         least 1, along is neither "x" nor "y", or a creepage is out of range or given of a body
-        that slides.
+        that slides, or lateral without the other one.
 
     Examples
     --------
@@ -166,6 +174,7 @@ def reciprocating(
         along=along,
         rolling=rolls if share is None else True,
         creepage=share,
+        lateral_creepage=checked_lateral_creepage(lateral_creepage, creepage=share),
     )
 
 

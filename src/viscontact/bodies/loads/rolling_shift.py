@@ -15,7 +15,8 @@ class RollingShift(TangentialLoad):
     """Surface of a rolling body, which moves by -creepage times its way, without turning.
 
     Where the surface speed of the body exceeds its travel by the creepage, as that of a driven
-    wheel does, its surface moves backwards over the half-space.
+    wheel does, its surface moves backwards over the half-space. With a lateral creepage, as that of
+    a wheel that is askew, it also moves to the right of the way by that times the way.
     """
 
     motion: Motion
@@ -23,9 +24,10 @@ class RollingShift(TangentialLoad):
     def at(self, time: float, *, side: str = "right") -> TangentialPoint:
         """Return the shift at an instant [s]; it does not jump."""
         start, here = self.motion.position_at(np.array([0.0, time]))
-        creepage = self.motion.creepage or 0.0
-        along_x, along_y = (-creepage * (here - start)).tolist()
-        return TangentialPoint((None, None, None), (along_x, along_y, 0.0))
+        creepage, lateral = self.motion.creepage or 0.0, self.motion.lateral_creepage or 0.0
+        way_x, way_y = (here - start).tolist()
+        shift = lateral * way_y - creepage * way_x, -lateral * way_x - creepage * way_y
+        return TangentialPoint((None, None, None), (*shift, 0.0))
 
     @property
     def kinks(self) -> Floats:
@@ -39,8 +41,10 @@ class RollingShift(TangentialLoad):
 
     @property
     def acts(self) -> tuple[bool, bool, bool]:
-        """True along the axes of the motion."""
-        return *self.motion.moves, False
+        """True along the axes of the motion, and with a lateral creepage across it."""
+        along_x, along_y = self.motion.moves
+        crosses = bool(self.motion.lateral_creepage)
+        return along_x or crosses, along_y or crosses, False
 
     @property
     def longest_step(self) -> float:

@@ -16,6 +16,7 @@ from viscontact.bodies.loads import history_points
 from viscontact.bodies.loads.motion import (
     Motion,
     checked_creepage,
+    checked_lateral_creepage,
     checked_rolling,
     refuse_long_path,
 )
@@ -44,19 +45,24 @@ class Travel(Motion):
         Surface speed of a body that rolls over its travel, less 1, for rolling with traction under
         friction: positive where the body drives. Towards +y it then pushes the half-space to -y.
         Between -1 and 1; the body then rolls [-].
+    lateral_creepage : float, optional
+        Beside a creepage, which may be 0, the speed of the body's surface across its travel over
+        that, as of a wheel that is askew: positive to the right of the travel, which is +x for one
+        towards +y, and the half-space is pushed there. Between -1 and 1 [-].
 
     Raises
     ------
     ValueError
         If the arrays do not fit together, a value is not finite, the times do not increase (a
         repeated time would be a jump of the position), the body does not move, or a creepage is
-        out of range or given of a body that slides.
+        out of range or given of a body that slides, or lateral without the other one.
 
     Notes
     -----
     gap = h(x - X, y - Y) + displacement - approach - tilt_x (x - X) - tilt_y (y - Y), with the
     position (X, Y) of the body's axis. Eccentricities are measured from the axis. With a creepage
-    the surface of the body moves by -creepage times the way against the half-space.
+    the surface of the body moves by -creepage times the way against the half-space, and by the
+    lateral creepage times the way to the right of it.
 
     Examples
     --------
@@ -72,6 +78,9 @@ class Travel(Motion):
     y: float | Floats = field(metadata={"unit": "m"})
     rolling: bool | None
     creepage: float | None = field(metadata={"unit": "1"})
+    lateral_creepage: float | None = field(
+        default=None, metadata={"unit": "1", "recorded": "if given"}
+    )
 
     def __init__(
         self,
@@ -81,6 +90,7 @@ class Travel(Motion):
         *,
         rolling: bool | None = None,
         creepage: float | None = None,
+        lateral_creepage: float | None = None,
     ) -> None:
         instants = history_points.instants(times)
         for i in np.flatnonzero(np.diff(instants) == 0)[:1]:
@@ -94,8 +104,10 @@ class Travel(Motion):
         )
         rolls = checked_rolling(rolling)
         share = checked_creepage(creepage, rolling=rolls)
+        askew = checked_lateral_creepage(lateral_creepage, creepage=share)
         rolls = rolls if share is None else True
-        store(self, times=instants, x=along_x, y=along_y, rolling=rolls, creepage=share)
+        store(self, times=instants, x=along_x, y=along_y, rolling=rolls)
+        store(self, creepage=share, lateral_creepage=askew)
         if not any(self.moves):
             raise ValueError(
                 "x and y: the body does not move; give two different positions, or leave out the "

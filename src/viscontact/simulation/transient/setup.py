@@ -260,10 +260,10 @@ def _gap(indenter: Indenter, grid: Grid) -> Floats:
 def _even(problem: Problem, open_gap: Floats, grid: Grid) -> tuple[bool, bool]:
     ends_alike = all(body.is_even for body in problem.ended_bodies.values())
     loads = (ends_alike and problem.load.is_even(0), problem.load.is_even(1))
-    if problem.is_coupled and problem.tangential is not None:
+    if problem.is_coupled and problem.shear_load is not None:
         # A force along the surface tilts the pressure its way, a torque makes it even about the
         # axis only.
-        along_x, along_y, turning = problem.tangential.acts
+        along_x, along_y, turning = problem.shear_load.acts
         loads = loads[0] and not along_x and not turning, loads[1] and not along_y and not turning
     if problem.motion.stands:
         return even_axes(grid, open_gap, loads)
