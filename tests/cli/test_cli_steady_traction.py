@@ -249,11 +249,23 @@ STEADY = (vc.Paraboloid(0.01, 0.01), vc.Material(vc.Elastic(1e6), 0.5), vc.step(
         ({"friction": 0.3, "creepage": [0.1, float("nan")]}, "^creepage must be a finite number"),
         ({"friction": 0.3, "creepage": 1.5}, "^creepage must lie between -1 and 1"),
         ({"friction": 0.3, "creepage": 0.1, "rolling": False}, "^creepage goes with a body"),
+        ({"friction": 0.3, "lateral_creepage": 0.1}, "^lateral_creepage goes with a creepage"),
     ],
 )
 def test_refused_argument_is_named(given: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         vc.steady(*STEADY, **given)
+
+
+def test_lateral_creepage_of_a_case_is_in_the_check_and_refused_of_coupled_bodies(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    askew = ", creepage: [1 %, 3 %, -2 %]", ", creepage: 0, lateral_creepage: 0.2 %"
+    assert main(["check", str(written(tmp_path, askew))]) == 0
+    assert "lateral creepage 0.002" in " ".join(capsys.readouterr().out.split())
+    coupled = STEADY[0], vc.Material(vc.Elastic(1e6), 0.3), *STEADY[2:]
+    with pytest.raises(ValueError, match=r"^friction\.coupling: .* under a lateral creepage"):
+        vc.steady(*coupled, friction=0.3, creepage=0.0, lateral_creepage=0.01)
 
 
 def test_coupled_layers_under_friction_are_refused_by_name() -> None:

@@ -78,6 +78,17 @@ def test_stick_zone_and_tractions_are_those_of_carter():
     np.testing.assert_allclose(-found.traction_y.values, exact, atol=0.03 * MU * peak)
 
 
+def test_lateral_creepage_has_the_force_of_carter_in_antiplane_strain():
+    """A line moves by 1/(1 - ν) times as much across: twice the creepage at ν = 1/2 (8.3)."""
+    lateral, carried = 2 * 0.4 * FULL, 0.64 * MU * LINE_LOAD
+    for cells in (10, 20, 40):
+        ds = rolled(cells, [0.0], lateral_creepage=lateral).isel(speed=0, creepage=0)
+        assert ds.tangential_force_x == close_to(carried, rel=0.1 / cells**2)
+        assert ds.tangential_force_y == 0
+        put_in = float(ds.tangential_force_x) * lateral * 0.1
+        assert ds.friction_power == close_to(put_in, rel=0.3 / cells**2)
+
+
 def test_work_of_the_drive_is_heat_of_friction():
     """An elastic body in steady rolling stores nothing: Q creepage V is the heat."""
     creepages, speed = SHARES[1:] * FULL, 0.1
@@ -170,12 +181,24 @@ def _log_primitive(y: Any) -> Any:
     return y * np.log(np.maximum(np.abs(y), 1e-300)) - y
 
 
-#: C11 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
+#: C11 and C22 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
 LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
+LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
 
 
-def ball(ratio: float, cells: int, shares: Any, along: str = "y") -> tuple[xr.Dataset, Any]:
-    """Two equal balls under creepages, as parts of that at which a roller slides; G a² creepage."""
+def ball(
+    ratio: float,
+    cells: int,
+    shares: Any,
+    along: str = "y",
+    aside: float | None = None,
+    *,
+    errors: bool = False,
+) -> tuple[xr.Dataset, Any]:
+    """Two equal balls under creepages, as parts of that at which a roller slides; G a² creepage.
+
+    Another such part is the creepage to the right.
+    """
     radius, half, modulus = 0.01, 1e-3, 1e6
     compliance = (1 - ratio) / modulus  # of both
     force = 4 * half**3 / (3 * radius * compliance)
@@ -192,7 +215,8 @@ def ball(ratio: float, cells: int, shares: Any, along: str = "y") -> tuple[xr.Da
         grid=vc.Grid((cells + 8, cells + 8), (size, size)),
         friction=MU,
         creepage=creepages,
-        errors=False,
+        lateral_creepage=None if aside is None else aside * MU * half / radius,
+        errors=errors,
     )
     return ds, modulus * half**2 * creepages
 
@@ -203,6 +227,37 @@ def test_small_creepage_of_balls_has_the_coefficient_of_kalker(ratio):
     ds, unit = ball(ratio, 32, [0.02, 0.04])
     low, high = -ds.tangential_force_y.values[0] / unit
     assert 2 * low - high == close_to(LONGITUDINAL[ratio], rel=0.007)
+
+
+@pytest.mark.parametrize("ratio", LATERAL)
+def test_small_lateral_creepage_of_balls_has_the_coefficient_of_kalker(ratio):
+    """Q = C22 G a² creepage to the right, within its error bar of 32 cells, and none along."""
+    found, bars = [], []
+    for aside in (0.01, 0.02):
+        ds, _ = ball(ratio, 32, [0.0], aside=aside, errors=True)
+        unit = 1e6 * 1e-6 * aside * MU * 0.1
+        found.append(float(ds.tangential_force_x[0, 0]) / unit)
+        bars.append(float(ds.tangential_force_x_error[0, 0]) / unit)
+        assert ds.tangential_force_y.values == close_to(0.0, abs=1e-6 * unit)
+    assert 2 * found[0] - found[1] == close_to(LATERAL[ratio], abs=min(bars))
+    assert bars[0] < 0.01 * found[0]
+
+
+def test_without_lateral_contraction_tractions_are_along_the_creepage_in_any_direction():
+    """Of ν = 0 both components of traction displace alike: the discs turn with the creepage."""
+    straight, oblique = ball(0.0, 12, [0.5])[0], ball(0.0, 12, [0.3], aside=0.4)[0]
+    along, size = straight.traction_y.values, float(np.abs(straight.traction_y).max())
+    np.testing.assert_allclose(oblique.traction_y.values, 0.6 * along, atol=1e-5 * size)
+    np.testing.assert_allclose(oblique.traction_x.values, -0.8 * along, atol=1e-5 * size)
+
+
+@pytest.mark.parametrize(("along", "right"), [("y", 1.0), ("x", -1.0)])
+def test_a_large_lateral_creepage_slides_to_the_right_of_the_travel(along, right):
+    """All of the contact slips: friction times force, towards +x from y, towards -y from x."""
+    ds = ball(0.3, 8, [0.0], along, aside=5.0)[0]
+    across = {"y": ds.tangential_force_x, "x": ds.tangential_force_y}[along]
+    assert across.values[0] == close_to(right * MU * ds.force.values, rel=1e-3)
+    assert ds.slip_fraction.values == 1
 
 
 def test_direction_of_rolling_does_not_matter():

@@ -39,6 +39,17 @@ def _axis(cell: str) -> str | None:
     return name if name in _AXES else None
 
 
+#: Creepage across the travel, of all kinds of motion.
+LateralCreepage = Annotated[
+    Creepage | None,
+    Field(
+        description="beside a creepage, which may be 0: speed of the body's surface across its "
+        "travel, over that; positive to the right of it, which is +x for a travel towards +y",
+        examples=["0.1 %"],
+    ),
+]
+
+
 class MotionSection(Section):
     """A motion of the body over the surface."""
 
@@ -77,12 +88,7 @@ class MotionOverTime(MotionSection):
         "positive if it drives",
         examples=["0.3 %"],
     )
-    lateral_creepage: Creepage | None = Field(
-        default=None,
-        description="beside a creepage, which may be 0: speed of the body's surface across its "
-        "travel, over that; positive to the right of it, which is +x for a travel towards +y",
-        examples=["0.1 %"],
-    )
+    lateral_creepage: LateralCreepage = None
 
     @property
     def _creepages(self) -> dict[str, Any]:
@@ -246,6 +252,7 @@ class Steady(MotionSection):
         "or several, each of which is computed; positive if it drives",
         examples=["0.3 %", ["0.1 %", "1 %"], {"from": "0.1 %", "to": "2 %", "count": 10}],
     )
+    lateral_creepage: LateralCreepage = None
 
     def build(self) -> SteadyMotion:
         """Return the motion."""
@@ -254,7 +261,8 @@ class Steady(MotionSection):
             speeds = given.speeds
         else:
             speeds = tuple(given) if isinstance(given, list) else (given,)
-        return SteadyMotion(speeds, self.along, self.rolling, self._creepages)
+        lateral = self.lateral_creepage
+        return SteadyMotion(speeds, self.along, self.rolling, self._creepages, lateral)
 
     @property
     def _creepages(self) -> tuple[float, ...]:

@@ -149,4 +149,7 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
                 if several
                 else ("creepage", f"{creepages[0]:.4g}")
             )
+        lateral = self.setup.problem.motion.lateral_creepage
+        if lateral is not None:
+            rows.append(("lateral creepage", f"{lateral:.4g}"))
         return rows

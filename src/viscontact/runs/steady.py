@@ -46,6 +46,7 @@ def steady(  # noqa: PLR0913
     adhesion: Adhesion | None = None,
     friction: Friction | float | None = None,
     creepage: ArrayLike | None = None,
+    lateral_creepage: float | None = None,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
@@ -100,6 +101,10 @@ def steady(  # noqa: PLR0913
         Surface speed of the body over its travel, less 1, or several, each between -1 and 1:
         positive where the body drives, and pushes the half-space backwards; negative where it
         brakes.
+    lateral_creepage : float, optional
+        Beside the creepage, which may be 0, the speed of the body's surface across its travel over
+        that, as of a wheel that is askew: positive to the right of the travel, which is +x for one
+        towards +y, and the half-space is pushed there. Not of coupled bodies.
 
     Returns
     -------
@@ -180,7 +185,7 @@ def steady(  # noqa: PLR0913
     [[-0.07, -0.45]]
     """
     report = reported(progress, ProgressBar("speed"))
-    motion = steady_motion(speed, along, rolling, creepage)
+    motion = steady_motion(speed, along, rolling, creepage, lateral_creepage)
     contact = contact_problem(
         indenter=indenter,
         material=material,

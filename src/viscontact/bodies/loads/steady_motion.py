@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
-from viscontact.bodies.loads.motion import AtOrigin, checked_creepage
+from viscontact.bodies.loads.motion import AtOrigin, checked_creepage, checked_lateral_creepage
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import real_array
 
@@ -24,14 +24,22 @@ class SteadyMotion(AtOrigin):
     rolling: bool | None = None
     #: Surface speeds of a body that rolls over its travel, less 1 [-]; none without traction.
     creepages: tuple[float, ...] = ()
+    #: Speed of its surface to the right of its travel, over that, beside each of them [-].
+    lateral_creepage: float | None = None
 
     def __post_init__(self) -> None:
         checked_speeds("speed", self.speeds)
         checked_creepages(self.creepages, rolling=self.rolling)
+        first = self.creepages[0] if self.creepages else None
+        checked_lateral_creepage(self.lateral_creepage, creepage=first)
 
 
 def steady_motion(
-    speed: ArrayLike, along: str, rolling: bool | None, creepage: ArrayLike | None = None
+    speed: ArrayLike,
+    along: str,
+    rolling: bool | None,
+    creepage: ArrayLike | None = None,
+    lateral_creepage: float | None = None,
 ) -> SteadyMotion:
     """Return the motion of the arguments of `steady`."""
     if along not in ("x", "y"):
@@ -41,7 +49,10 @@ def steady_motion(
     creepages = () if creepage is None else checked_creepages(creepage, rolling=rolling)
     if creepage is not None and not creepages:
         raise ValueError("creepage: at least one is needed, got none; leave the argument out")
-    return SteadyMotion(tuple(checked_speeds("speed", speed).tolist()), along, rolling, creepages)
+    first = creepages[0] if creepages else None
+    lateral = checked_lateral_creepage(lateral_creepage, creepage=first)
+    speeds = tuple(checked_speeds("speed", speed).tolist())
+    return SteadyMotion(speeds, along, rolling, creepages, lateral)
 
 
 def checked_creepages(given: ArrayLike, *, rolling: bool | None) -> tuple[float, ...]:

@@ -135,13 +135,15 @@ def _check_friction(contact: Problem, motion: SteadyMotion, periodic: bool) -> N
             "roll; leave friction and creepage out"
         )
     if contact.is_coupled:
-        _check_coupled(contact)
+        _check_coupled(contact, motion)
 
 
-def _check_coupled(contact: Problem) -> None:
-    """Refuse coupled bodies that have layers."""
+def _check_coupled(contact: Problem, motion: SteadyMotion) -> None:
+    """Refuse coupled bodies that have layers, or are askew."""
     if any(isinstance(body, Layered) for body in contact.bodies):
         refuse_coupled(contact, "in steady motion over layers")
+    if motion.lateral_creepage:
+        refuse_coupled(contact, "under a lateral creepage in steady motion (only over time)")
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

@@ -95,6 +95,8 @@ def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[s
     heat = {} if temperature is None else {"temperature": describe(temperature)}
     creepages, friction = problem.motion.creepages, contact.friction
     creeping = {"creepage": describe(np.array(creepages))} if creepages else {}
+    if problem.motion.lateral_creepage is not None:
+        creeping["lateral_creepage"] = problem.motion.lateral_creepage
     rubbing = {} if friction is None else {"friction": describe(friction)}
     return {
         "indenter": describe(contact.indenter),

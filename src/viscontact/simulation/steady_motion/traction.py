@@ -52,14 +52,15 @@ class TractionSolver:
         """
         under = _Pressed.of(self.problem, contact, self.transforms)
         shear = moving_shear(self.laws, contact.speed, max(contact.grid.size_about_origin))
-        posed = _posed(under, shear, self.transforms)
+        lateral = self.problem.motion.lateral_creepage or 0.0
+        posed = replace(_posed(under, shear, self.transforms), lateral=lateral)
         if along is not None:
             stretch = along - np.roll(along, -1, axis=1 + under.axis)
             posed = replace(posed, stretch=stretch[:, *under.region.cut])
         found = []
         start = np.zeros((2, *under.region.shape))
         for creepage in self.problem.motion.creepages:
-            if creepage or along is not None:
+            if creepage or lateral or along is not None:
                 solution = self._solved(posed, creepage, start, contact.speed)
                 start = solution.traction
             else:
