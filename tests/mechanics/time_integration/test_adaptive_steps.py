@@ -13,8 +13,9 @@ from closeness import close_to
 from viscontact.bodies.loads import harmonic
 from viscontact.bodies.materials.compliance import SeriesCompliance
 from viscontact.loads import ApproachHistory, ForceHistory, ramp, step
-from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps, stretch_at
+from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import FixedSteps, plan_steps
+from viscontact.mechanics.time_integration.load_stretches import stretch_at
 from viscontact.mechanics.time_integration.requested_times import adaptive_times
 
 KELVIN = SeriesCompliance(1.0, [1.0], [2.0])
@@ -254,3 +255,47 @@ def test_a_jump_that_is_not_solved_is_tried_sooner_a_few_times():
     without = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN)
     without.accept_step(0.0)
     assert not without.repeat_sooner()
+
+
+def test_a_way_somewhat_longer_than_a_step_by_the_change_of_the_force_is_one_step():
+    load, stops = ApproachHistory([0.0, 1.0], [1e-6, -1e-6]), np.linspace(0.1, 1.0, 10)
+
+    def taken(**options):
+        steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), stops, load, KELVIN, **options)
+        # The change by which steps of 0.09 are proposed.
+        found = []
+        while (each := steps.next_step()) is not None:
+            if steps.accept_step(0.0, 0.85 * each.duration / 0.09):
+                found.append(each.duration)
+        return found[-8:]
+
+    assert taken(jumps_in=1e-5) == close_to([0.1] * 8)
+    assert taken() == close_to([0.05] * 8)
+
+
+def test_a_refused_step_is_shortened_though_the_way_is_somewhat_longer():
+    load = ApproachHistory([0.0, 1.0], [1e-6, -1e-6])
+    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    steps.accept_step(0.0)
+    for _ in range(12):
+        before = steps.next_step().duration
+        steps.repeat_shorter(1.01, math.inf)
+        assert steps.next_step().duration < 0.85 * before
+
+
+def test_steps_close_in_on_where_the_force_begins_to_change():
+    load = ApproachHistory([0.0, 1.0], [1e-6, -1e-6])
+    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    begins, allowed = 0.4321, 2e-3  # where, and the longest step that passes it
+    refused = 0
+    while (each := steps.next_step()).time - each.duration < begins:
+        change = each.duration / allowed if each.time > begins else 0.3
+        if change > 1:
+            refused += 1
+            steps.repeat_shorter(change, math.inf)
+        else:
+            steps.accept_step(0.0, change)
+    assert refused <= 5  # 10 where steps grow on
+    restored = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    restored.restore(steps.restart_data())
+    assert restored.next_step() == each

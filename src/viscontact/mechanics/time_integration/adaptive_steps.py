@@ -21,6 +21,7 @@ from viscontact.bodies.loads import LoadHistory
 from viscontact.bodies.loads.clock import Clock
 from viscontact.bodies.materials.compliance import ContactCompliance
 from viscontact.mechanics.time_integration.fixed_steps import TimeStep, snap_to_kink
+from viscontact.mechanics.time_integration.load_stretches import stretch_at
 from viscontact.mechanics.time_integration.requested_times import AdaptiveTimes
 from viscontact.mechanics.time_integration.restart_data import RestartData
 from viscontact.mechanics.time_integration.step_error import ISOLATED_STEP_SHARE
@@ -46,26 +47,15 @@ MIN_STEP_FRACTION = 1e-12
 #: step over that way from which on a state is looked for there again.
 PART_OF_WAY, LOOKED_AGAIN = 0.5, 1.5
 
+#: Change in a step, over the largest one, from which on the force begins to change within it; and
+#: way to a stop over the proposed step up to which one step takes it where the force limits steps.
+BEYOND, LONGEST_OVER_PROPOSED = 2.0, 1.2
+
 #: Longest first step after a kink, as a part of the interval to the next kink.
 FIRST_STEP_FRACTION = 0.02
 
-#: Longest steps of a curved load in one of its stretches: about a cycle.
-CYCLE_STEPS = 64.0
-
 #: Part of a step in which a jump is tried again, and least part of the shortest one of a jump.
 SOONER, LEAST_JUMP = 0.3, 0.01
-
-
-def stretch_at(load: LoadHistory, time: float, end: float) -> float:
-    """Length of the stretch between kinks of a load that a time is in, or begins, until an end [s].
-
-    A load that is curved has kinks at long intervals, and stretches as long as its cycles.
-    """
-    kinks = np.append(load.kinks[load.kinks < end], end)
-    after = int(np.searchsorted(kinks, time, side="right"))
-    begin = float(kinks[after - 1]) if after else 0.0
-    stretch = float(kinks[min(after, len(kinks) - 1)]) - begin if time < end else end
-    return min(stretch or end, CYCLE_STEPS * load.longest_step)
 
 
 class AdaptiveSteps:
@@ -110,6 +100,8 @@ class AdaptiveSteps:
         self._step: TimeStep | None = TimeStep(0.0, 0.0, self._state_at(0.0), smooth=False)
         self._growth = MAX_FACTOR
         self._lost = 0.0  # time at which no state was found near the one before [s]
+        #: Time at which the force had changed too much, and longest step by that [s].
+        self._changed = 0.0, 0.0
 
     @property
     def left(self) -> int:
@@ -165,6 +157,9 @@ class AdaptiveSteps:
         if math.isinf(longest):
             if self._step is not None and math.isinf(change):
                 self._lost = self._step.time
+            elif self._step is not None and change > BEYOND:
+                allowed = CHANGE_SAFETY_FACTOR * self._step.duration / change
+                self._changed = self._step.time, allowed
             self.accept_step(0.0, change)
             return
         assert self._step is not None  # there was one that is too long
@@ -189,6 +184,7 @@ class AdaptiveSteps:
             "duration": self._duration,
             "growth": self._growth,
             "lost": self._lost,
+            "changed": self._changed,
             "step": None if self._step is None else asdict(self._step),
         }
 
@@ -198,6 +194,7 @@ class AdaptiveSteps:
             restart_data[name] for name in ("time", "duration", "growth")
         )
         self._lost = restart_data.get("lost", 0.0)
+        self._changed = restart_data.get("changed", (0.0, 0.0))
         self._step = None if restart_data["step"] is None else TimeStep(**restart_data["step"])
 
     def _is_shortest(self, duration: float) -> bool:
@@ -218,6 +215,8 @@ class AdaptiveSteps:
     def _advance(self, step: TimeStep, *, jumped: bool = False) -> None:
         """Move to the end of an accepted step, and choose the next one."""
         self._time = step.time
+        if jumped:
+            self._changed = 0.0, 0.0
         if step.before_jump:
             self._step = TimeStep(step.time, 0.0, self._state_at(step.time), smooth=False)
         elif self._time >= self._end:
@@ -229,23 +228,21 @@ class AdaptiveSteps:
                 starts = step.is_jump or self._time in self._touches
                 before = 0.0 if starts else step.duration
                 self._duration = max(self._first_duration(), before)
-            self._step = self._next_step(smooth=not (after_kink or jumped))
+            stretch = 1.0 if self._jumps_in is None else LONGEST_OVER_PROPOSED
+            self._step = self._next_step(smooth=not (after_kink or jumped), stretch=stretch)
 
-    def _next_step(self, smooth: bool) -> TimeStep:
+    def _next_step(self, smooth: bool, stretch: float = 1.0) -> TimeStep:
         """Step of about the current duration, up to the next stop at most."""
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
-        duration = self._duration
-        ahead = self._lost - self._time
-        if ahead > 0 and duration < LOOKED_AGAIN * ahead:  # the end of the state lies between
-            duration = min(duration, ahead, max(PART_OF_WAY * ahead, self._shortest))
+        duration = self._nearing_change()
         if self._time < self._load.curved_until:
             duration = min(duration, self._load.longest_step)
         for clock in self._clocks:
             changes = clock.divisions(self._time, self._time + min(duration, way))
             duration = min(duration, *(changes[:1] - self._time).tolist(), math.inf)
         # The last two steps before a stop are of equal length, so that none is very short.
-        parts = math.ceil(way / duration * (1 - 1e-9))
+        parts = math.ceil(way / (stretch * duration) * (1 - 1e-9))
         duration = way if parts <= 1 else way / 2 if parts == 2 else duration
         time = stop if parts <= 1 else self._last_mark(self._time + duration)
         duration = duration if parts <= 1 else time - self._time
@@ -256,6 +253,16 @@ class AdaptiveSteps:
             before_jump=jumps,
             is_shortest=shortest,
         )
+
+    def _nearing_change(self) -> float:
+        """The current duration, or that of a step towards where a longer one was refused [s]."""
+        duration, (changed, allowed) = self._duration, self._changed
+        if changed > self._time:  # the force begins to change so much between
+            duration = min(duration, max(PART_OF_WAY * (changed - self._time), allowed))
+        ahead = self._lost - self._time
+        if ahead > 0 and duration < LOOKED_AGAIN * ahead:  # the end of the state lies between
+            duration = min(duration, ahead, max(PART_OF_WAY * ahead, self._shortest))
+        return duration
 
     def _last_mark(self, time: float) -> float:
         """The last mark of a step up to a time, or the time without one [s]."""

@@ -13,7 +13,7 @@ from viscontact.backend.arrays import Floats
 from viscontact.bodies.loads import Condition, MixedHistory
 from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP
 from viscontact.mechanics.state import EventKind
-from viscontact.mechanics.time_integration.adaptive_steps import stretch_at
+from viscontact.mechanics.time_integration.load_stretches import stretch_at
 from viscontact.simulation.accuracy.coarser_results import CoarserResult, History
 from viscontact.simulation.accuracy.error_models import (
     INSTANTS,
