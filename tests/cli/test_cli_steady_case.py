@@ -91,6 +91,24 @@ def test_run_stopped_after_a_speed_is_resumed_to_the_same_bits(
     assert same_bits("case", whole)
 
 
+@pytest.mark.parametrize(
+    "law",
+    [
+        "power-law, compliance: 1e-6 / Pa, exponent: 0.3, reference_time: 1 s, "
+        "instant: 1e-7 / Pa, data: shear",
+        "maxwell, shear_modulus: 9 MPa, viscosity: 10 kPa s",
+    ],
+)
+def test_check_needs_no_time_at_which_creep_is_over(
+    folder: Path, capsys: pytest.CaptureFixture[str], law: str
+) -> None:
+    begin, _, end = CASE.partition("zener, shear_modulus: 9 MPa, delayed_modulus: 1 MPa, ")
+    end = end.removeprefix("viscosity: 10 kPa s")
+    (folder / "case.yaml").write_text(f"{begin}{law}{end}", encoding="utf-8")
+    assert main(["check", "case.yaml"]) == 0
+    assert "peak pressure" in capsys.readouterr().out
+
+
 @pytest.mark.slow
 def test_killed_run_is_resumed_to_the_same_bits(folder: Path, finished: Path) -> None:
     command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "-q", "--resume"]

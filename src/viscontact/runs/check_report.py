@@ -124,7 +124,8 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     title = f"What to expect{without}, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
-    time, _ = prepared.run.contact.largest_load
+    # In steady motion load and temperature are constant, and the law need not say when creep ends.
+    time = prepared.run.contact.largest_load[0] if prepared.run.axis.is_history else 0.0
     grown = prepared.run.contact.thickening_at(time)
     # Of force and approach, the one that is not prescribed; a line contact has no approach.
     follows = [
