@@ -10,6 +10,7 @@ from closeness import close_to
 from mechanics.contact.adhesion.spheres import DEPTH, Sphere
 from viscontact.mechanics.contact.adhesion.descent import Descent
 from viscontact.mechanics.contact.adhesion.equilibrium import solve_from, traction_at
+from viscontact.mechanics.contact.adhesion.problem import attraction
 from viscontact.mechanics.contact.adhesion.stability import stability
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.contact.rigid_balance import Constraints
@@ -46,7 +47,7 @@ def test_stability_is_the_ratio_of_successive_changes_of_the_descent(tabor):
     state = sphere.contact(1e-9, approach=-0.1)
     factor, _ = stability(problem, sphere.domain, state)
     descent = Descent(problem, sphere.domain, state.traction * 1.01)
-    changes = [descent._iterate().growth for _ in range(5)]
+    changes = [descent._iterate().growth for _ in range(6)]
     assert factor == close_to(changes[-1] / changes[-2], rel=2e-3)
 
 
@@ -101,6 +102,51 @@ def test_stability_does_without_a_change_of_cells_that_the_front_has_left():
     given = sphere.problem(approach=-0.5), sphere.domain, sphere.contact(approach=-0.5)
     left, right = stability(*given)[0], stability(*given, known)[0]
     assert right == close_to(left, rel=2e-2)
+
+
+def long_contact(law):
+    """A body six times as long as wide that adheres, under a force, with its state."""
+    sphere = Sphere(law, 1.0, 24, 5.0)
+    domain = ContactDomain(vc.Grid((36, 24), (12.0, 5.0)))
+    gap = vc.Paraboloid(6.0, 1.0).gap(domain.grid.x[:, None], domain.grid.y)
+    held = sphere.problem(approach=0.3)
+    held = replace(held, contact=replace(held.contact, open_gap=gap))
+    state = solve_from(held, domain, traction_at(held, domain, np.maximum(gap - 0.3, 0.0)), 1e-7)
+    free = Constraints((0.0, 0.0, 0.0), (0.3, 0.0, 0.0))
+    return replace(held, contact=replace(held.contact, constraints=free)), domain, state
+
+
+def eigenvalue_of_matrices(problem, domain, state):
+    """Largest eigenvalue of D S, with S of the influence coefficients of all cells, by LAPACK."""
+    falls = np.where(
+        state.in_contact, 0.0, -attraction(problem.law, state.gap, domain.periodic).slope
+    )
+    opens, touches = np.flatnonzero(falls), np.flatnonzero(state.in_contact)
+    cells = np.concatenate([opens, touches])
+    influence, unit = np.empty((cells.size, cells.size)), np.zeros(domain.shape)
+    for column, cell in enumerate(cells):
+        unit.flat[cell] = 1.0
+        influence[:, column] = domain.whole.convolution.apply(unit).ravel()[cells]
+        unit.flat[cell] = 0.0
+    influence *= problem.contact.compliance
+    along = np.meshgrid(domain.grid.x, domain.grid.y, indexing="ij")
+    planes = np.stack([np.ones(domain.shape), *along]).reshape(3, -1)[:, cells]
+    size, nothing = opens.size, np.zeros((3, 3))
+    # Pressures in contact and motions leave contact closed, and resultants as they are.
+    closed = planes[:, size:]
+    held = np.block([[influence[size:, size:], -closed.T], [closed, nothing]])
+    found = np.linalg.solve(held, np.vstack([influence[size:, :size], planes[:, :size]]))
+    pressures, motions = found[:-3], found[-3:]
+    moves = influence[:size, :size] - influence[:size, size:] @ pressures
+    moves += planes[:, :size].T @ motions
+    return float(np.linalg.eigvals(falls.ravel()[opens][:, None] * moves).real.max())
+
+
+@pytest.mark.parametrize("law", ["exponential", "dugdale"])
+def test_stability_of_a_long_contact_is_the_eigenvalue_of_its_matrices(law):
+    """The body tips before it parts, which no change finds that is as symmetric as the contact."""
+    given = long_contact(law)
+    assert stability(*given)[0] == close_to(eigenvalue_of_matrices(*given), rel=1e-2)
 
 
 def test_bodies_far_apart_are_stable():

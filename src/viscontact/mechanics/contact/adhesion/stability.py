@@ -30,13 +30,17 @@ from viscontact.mechanics.contact.krylov import norm
 from viscontact.mechanics.contact.problem import Guess
 from viscontact.mechanics.contact.rigid_balance import Constraints
 
-#: Vectors of the Rayleigh-Ritz method for a law that decreases, and for one that rises first; each
-#: costs the solution of a linear system. Under a law that decreases they leave an error below a
-#: percent of spheres, the change of the state before mostly one of up to two; on a rough surface,
-#: where many places compete, the factor is up to 18 % too small, 3 % in the median. Under one that
-#: rises first, changes of a ring compete: the factor of a sphere is up to 15 % too small near its
-#: jumps and 40 % between them. It would err by more from the change before, which is not used.
-VECTORS, VECTORS_RISING = 2, 4
+#: Most vectors of the Rayleigh-Ritz method: from no known change, under a law that rises first, and
+#: with the change of the state before; each costs the solution of a linear system. Spheres need 2,
+#: contacts around which places compete, as the ends and sides of a long one, up to 6. Under a law
+#: that rises first, changes of a ring compete: the factor of a sphere is up to 15 % too small near
+#: its jumps and 40 % between them, and of a long contact down to half. It would err by more from
+#: the change before, which is not used.
+VECTORS, VECTORS_RISING, VECTORS_CARRIED = 6, 4, 2
+
+#: Slopes of the first change over half of the grid, along x and y: from one as symmetric as the
+#: contact, those that are not would never be found.
+SKEWNESS = 0.5, 0.3
 
 #: Part of a returned change that is new, up to which the one from the state before is the change
 #: sought; the same of a law that ends abruptly, where the change is one of a narrow front.
@@ -92,7 +96,7 @@ def stability(
     # Of a body that was free to move otherwise the change is another one.
     carries = known is not None and decreases and np.array_equal(known.free, held.free)
     found = [held.carried(known, falls)] if known is not None and carries else []
-    change, limit = np.where(falls > 0, falls, 0.0), NEGLIGIBLE_SLOPE
+    change, limit = np.where(falls > 0, falls, 0.0) * _skewed(falls.shape), NEGLIGIBLE_SLOPE
     solves, reductions = VECTORS, (REDUCTION, LARGEST_REDUCTION)
     if not decreases:
         solves, reductions = VECTORS_RISING, (REDUCTION_RISING, LARGEST_REDUCTION_RISING)
@@ -100,6 +104,7 @@ def stability(
     if found:
         change, share = _apart(found[0].returned, [found[0].attraction])
         limit = RETURNS_ALIKE_ABRUPT if problem.law.is_abrupt else RETURNS_ALIKE
+        solves = VECTORS_CARRIED
     while len(found) < solves and share >= limit:
         # What is new is a small part, and its error a small part of that.
         reduction = min(reductions[0] / share, reductions[1])
@@ -111,6 +116,14 @@ def stability(
     values = _sum(weights, [each.pressure.values for each in found])
     motion = _sum(weights, [each.pressure.motion for each in found])
     return factor, ReturnedChange(values, motion, solution.in_contact, held.free)
+
+
+def _skewed(shape: tuple[int, ...]) -> Floats:
+    """Plane over a grid, of mean 1."""
+    along_x, along_y = (
+        slope * np.linspace(-1, 1, cells) for slope, cells in zip(SKEWNESS, shape, strict=True)
+    )
+    return 1 + along_x[:, None] + along_y
 
 
 def _apart(change: Floats, known: list[Floats]) -> tuple[Floats, float]:
