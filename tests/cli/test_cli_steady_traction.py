@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from pathlib import Path
 
 import numpy as np
@@ -250,6 +251,8 @@ STEADY = (vc.Paraboloid(0.01, 0.01), vc.Material(vc.Elastic(1e6), 0.5), vc.step(
         ({"friction": 0.3, "creepage": 1.5}, "^creepage must lie between -1 and 1"),
         ({"friction": 0.3, "creepage": 0.1, "rolling": False}, "^creepage goes with a body"),
         ({"friction": 0.3, "lateral_creepage": 0.1}, "^lateral_creepage goes with a creepage"),
+        ({"friction": 0.3, "spin": 0.1}, "^spin goes with a creepage"),
+        ({"friction": 0.3, "creepage": 0.0, "spin": math.inf}, "^spin must be a finite"),
     ],
 )
 def test_refused_argument_is_named(given: dict[str, object], message: str) -> None:
@@ -264,8 +267,26 @@ def test_lateral_creepage_of_a_case_is_in_the_check_and_refused_of_coupled_bodie
     assert main(["check", str(written(tmp_path, askew))]) == 0
     assert "lateral creepage 0.002" in " ".join(capsys.readouterr().out.split())
     coupled = STEADY[0], vc.Material(vc.Elastic(1e6), 0.3), *STEADY[2:]
-    with pytest.raises(ValueError, match=r"^friction\.coupling: .* under a lateral creepage"):
-        vc.steady(*coupled, friction=0.3, creepage=0.0, lateral_creepage=0.01)
+    for given, said in (
+        ({"lateral_creepage": 0.01}, "a lateral creepage"),
+        ({"spin": 1.0}, "spin"),
+    ):
+        with pytest.raises(ValueError, match=rf"^friction\.coupling: .* under {said}"):
+            vc.steady(*coupled, friction=0.3, creepage=0.0, **given)
+
+
+def test_spin_of_a_case_is_in_the_check_and_refused_of_bodies_without_end(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    turning = ", creepage: [1 %, 3 %, -2 %]", ", creepage: 0, spin: 2 deg/m"
+    assert main(["check", str(written(tmp_path, turning))]) == 2
+    assert "spin: a body without end does not turn" in " ".join(capsys.readouterr().err.split())
+    roller, ball = "radius_x: infinite, radius_y: 30 mm", "radius_x: 30 mm, radius_y: 30 mm"
+    grid = "shape: [1, 40], size: [100 mm, 16 mm], periodic: [true, false]"
+    ends = grid, "shape: [40, 40], size: [24 mm, 24 mm]"
+    force = "force: 200 N, tilt_y: 0", "force: 200 N, tilt_x: 0, tilt_y: 0"
+    assert main(["check", str(written(tmp_path, turning, (roller, ball), ends, force))]) == 0
+    assert "spin 34.91 mrad/m" in " ".join(capsys.readouterr().out.split())
 
 
 def test_coupled_layers_under_friction_are_refused_by_name() -> None:

@@ -185,6 +185,9 @@ def _log_primitive(y: Any) -> Any:
 LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
 LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
 
+#: C23 there.
+BY_SPIN = {0.0: 1.33, 0.25: 1.47, 0.5: 1.63}
+
 
 def ball(
     ratio: float,
@@ -193,11 +196,12 @@ def ball(
     along: str = "y",
     aside: float | None = None,
     *,
+    spin: float | None = None,
     errors: bool = False,
 ) -> tuple[xr.Dataset, Any]:
     """Two equal balls under creepages, as parts of that at which a roller slides; G a² creepage.
 
-    Another such part is the creepage to the right.
+    Another such part is the creepage to the right; the spin is in rad/m.
     """
     radius, half, modulus = 0.01, 1e-3, 1e6
     compliance = (1 - ratio) / modulus  # of both
@@ -216,6 +220,7 @@ def ball(
         friction=MU,
         creepage=creepages,
         lateral_creepage=None if aside is None else aside * MU * half / radius,
+        spin=spin,
         errors=errors,
     )
     return ds, modulus * half**2 * creepages
@@ -241,6 +246,39 @@ def test_small_lateral_creepage_of_balls_has_the_coefficient_of_kalker(ratio):
         assert ds.tangential_force_y.values == close_to(0.0, abs=1e-6 * unit)
     assert 2 * found[0] - found[1] == close_to(LATERAL[ratio], abs=min(bars))
     assert bars[0] < 0.01 * found[0]
+
+
+@pytest.mark.parametrize("ratio", BY_SPIN)
+def test_small_spin_of_balls_has_the_coefficient_of_kalker(ratio):
+    """Q = C23 G a³ spin to the left of the travel, to the digits of the table and its error bar."""
+    ds, _ = ball(ratio, 32, [0.0], spin=0.3, errors=True)
+    unit = 1e6 * 1e-9 * 0.3
+    bar = float(ds.tangential_force_x_error[0, 0]) / unit
+    assert -float(ds.tangential_force_x[0, 0]) / unit == close_to(BY_SPIN[ratio], abs=0.006)
+    assert bar < 0.007
+    assert ds.tangential_force_y.values == close_to(0.0, abs=1e-6 * unit)
+
+
+def test_spin_turns_with_the_travel_and_back_with_its_sign():
+    """A travel along +x is one along +y that is turned clockwise: the force stays to its left."""
+    along_y, along_x = (ball(0.3, 12, [0.0], along=each, spin=20.0)[0] for each in "yx")
+    back = ball(0.3, 12, [0.0], spin=-20.0)[0]
+    aside = along_y.tangential_force_x.values
+    assert aside < 0
+    assert along_x.tangential_force_y.values == close_to(-aside, rel=1e-5)
+    assert back.tangential_force_x.values == close_to(-aside, rel=1e-5)
+
+
+def test_power_of_a_large_spin_is_that_of_the_torque_of_full_sliding():
+    """3π/16 μ W a at a vanishing shift (Lubkin 1951); the pole moves aside by 1/spin."""
+    powers = []
+    for spin in (1e3, 4e3):
+        ds, _ = ball(0.3, 24, [0.0], spin=spin)
+        torque = 3 * math.pi / 16 * MU * float(ds.force[0]) * 1e-3
+        powers.append(float(ds.friction_power[0, 0]) / (torque * spin * 0.1))
+        assert ds.slip_fraction.values == 1
+    assert powers[1] == close_to(1.0, abs=2e-3)
+    assert abs(powers[0] - 1) > abs(powers[1] - 1)
 
 
 def test_without_lateral_contraction_tractions_are_along_the_creepage_in_any_direction():

@@ -25,6 +25,7 @@ from viscontact.case.quantities import (
     Section,
     Speed,
     SpeedCount,
+    Spin,
 )
 from viscontact.case.section_choice import ChosenBy
 
@@ -253,6 +254,12 @@ class Steady(MotionSection):
         examples=["0.3 %", ["0.1 %", "1 %"], {"from": "0.1 %", "to": "2 %", "count": 10}],
     )
     lateral_creepage: LateralCreepage = None
+    spin: Spin | None = Field(
+        default=None,
+        description="beside a creepage, which may be 0: rotation of the body's surface over its "
+        "travel, from x to y, as the sine of a wheel's camber over its radius",
+        examples=["0.5 rad/m"],
+    )
 
     def build(self) -> SteadyMotion:
         """Return the motion."""
@@ -261,8 +268,8 @@ class Steady(MotionSection):
             speeds = given.speeds
         else:
             speeds = tuple(given) if isinstance(given, list) else (given,)
-        lateral = self.lateral_creepage
-        return SteadyMotion(speeds, self.along, self.rolling, self._creepages, lateral)
+        askew = self.lateral_creepage, self.spin
+        return SteadyMotion(speeds, self.along, self.rolling, self._creepages, *askew)
 
     @property
     def _creepages(self) -> tuple[float, ...]:

@@ -149,7 +149,9 @@ class OverSpeed(Analysis[SteadySetup, SteadyCurve]):
                 if several
                 else ("creepage", f"{creepages[0]:.4g}")
             )
-        lateral = self.setup.problem.motion.lateral_creepage
-        if lateral is not None:
-            rows.append(("lateral creepage", f"{lateral:.4g}"))
+        motion = self.setup.problem.motion
+        if motion.lateral_creepage is not None:
+            rows.append(("lateral creepage", f"{motion.lateral_creepage:.4g}"))
+        if motion.spin is not None:
+            rows.append(("spin", format_quantity(motion.spin, "rad/m", 4)))
         return rows

@@ -47,6 +47,7 @@ def steady(  # noqa: PLR0913
     friction: Friction | float | None = None,
     creepage: ArrayLike | None = None,
     lateral_creepage: float | None = None,
+    spin: float | None = None,
 ) -> xr.Dataset:
     """Contact of a body that moves over a creeping half-space or layers at constant speed.
 
@@ -105,6 +106,10 @@ def steady(  # noqa: PLR0913
         Beside the creepage, which may be 0, the speed of the body's surface across its travel over
         that, as of a wheel that is askew: positive to the right of the travel, which is +x for one
         towards +y, and the half-space is pushed there. Not of coupled bodies.
+    spin : float, optional
+        Beside the creepage, which may be 0, the rotation of the body's surface about its axis over
+        the travel, from x to y, as of a wheel with camber: the sine of its angle over its radius
+        [rad/m]. Not of coupled bodies, nor of those without end.
 
     Returns
     -------
@@ -185,7 +190,7 @@ def steady(  # noqa: PLR0913
     [[-0.07, -0.45]]
     """
     report = reported(progress, ProgressBar("speed"))
-    motion = steady_motion(speed, along, rolling, creepage, lateral_creepage)
+    motion = steady_motion(speed, along, rolling, creepage, lateral_creepage, spin)
     contact = contact_problem(
         indenter=indenter,
         material=material,

@@ -121,6 +121,10 @@ _FACTORS: dict[str, dict[str, float]] = {
     "1 / meter": {
         "1/m": 1.0,
     },
+    "radian / meter": {
+        "rad/m": 1.0,
+        "deg/m": 0.017453292519943295,
+    },
     "radian / second": {
         "rad/s": 1.0,
     },

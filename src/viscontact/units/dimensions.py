@@ -21,6 +21,7 @@ DIMENSIONS = {
     "time": Dimension("a time", "s", "1000 s", ("ms", "s", "min", "h", "d")),
     "force": Dimension("a force", "N", "10 kN", ("mN", "N", "kN", "MN")),
     "angle": Dimension("an angle", "rad", "1 mrad", ("urad", "mrad", "rad", "deg")),
+    "spin": Dimension("a rotation over a way", "rad/m", "0.5 rad/m", ("rad/m", "deg/m")),
     "pressure": Dimension("a pressure", "Pa", "1800 MPa", ("Pa", "kPa", "MPa", "GPa", "psi")),
     "compliance": Dimension(
         "a compliance", "1/Pa", "5.5e-4 / MPa", ("/ Pa", "/ kPa", "/ MPa", "/ GPa")

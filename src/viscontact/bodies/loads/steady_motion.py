@@ -12,7 +12,7 @@ from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.loads.history import LoadHistory, LoadPoint
 from viscontact.bodies.loads.motion import AtOrigin, checked_creepage, checked_lateral_creepage
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import real_array
+from viscontact.units.numbers import finite, real_array
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,15 @@ class SteadyMotion(AtOrigin):
     creepages: tuple[float, ...] = ()
     #: Speed of its surface to the right of its travel, over that, beside each of them [-].
     lateral_creepage: float | None = None
+    #: Rotation of its surface over the way, from x to y, beside each of them [rad/m].
+    spin: float | None = None
 
     def __post_init__(self) -> None:
         checked_speeds("speed", self.speeds)
         checked_creepages(self.creepages, rolling=self.rolling)
         first = self.creepages[0] if self.creepages else None
         checked_lateral_creepage(self.lateral_creepage, creepage=first)
+        checked_spin(self.spin, creepage=first)
 
 
 def steady_motion(
@@ -40,6 +43,7 @@ def steady_motion(
     rolling: bool | None,
     creepage: ArrayLike | None = None,
     lateral_creepage: float | None = None,
+    spin: float | None = None,
 ) -> SteadyMotion:
     """Return the motion of the arguments of `steady`."""
     if along not in ("x", "y"):
@@ -52,7 +56,21 @@ def steady_motion(
     first = creepages[0] if creepages else None
     lateral = checked_lateral_creepage(lateral_creepage, creepage=first)
     speeds = tuple(checked_speeds("speed", speed).tolist())
-    return SteadyMotion(speeds, along, rolling, creepages, lateral)
+    turning = checked_spin(spin, creepage=first)
+    return SteadyMotion(speeds, along, rolling, creepages, lateral, turning)
+
+
+def checked_spin(spin: float | None, *, creepage: float | None) -> float | None:
+    """Return a spin beside a creepage [rad/m], or None; else ValueError."""
+    if spin is None:
+        return None
+    number = finite("spin", spin, "rad/m")
+    if creepage is None:
+        raise ValueError(
+            f"spin goes with a creepage, which may be 0, got spin={spin!r} without one; give the "
+            "creepage, too, as in creepage=0.0"
+        )
+    return number
 
 
 def checked_creepages(given: ArrayLike, *, rolling: bool | None) -> tuple[float, ...]:

@@ -83,7 +83,8 @@ def _carter(run: xr.Dataset, creepages: Floats) -> list[Curve]:
     line = run["force_per_length"].values if "force_per_length" in run else None
     if not isinstance(body, Paraboloid) or series is None or line is None:
         return []
-    if case_of(run)["motion"].get("lateral_creepage"):  # which takes a part of the friction
+    motion = case_of(run)["motion"]
+    if motion.get("lateral_creepage") or motion.get("spin"):  # which take a part of the friction
         return []
     coefficient = float(case_of(run)["friction"]["coefficient"])
     relaxed = series.instant + float(series.amplitudes.sum())

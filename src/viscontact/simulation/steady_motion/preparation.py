@@ -136,6 +136,11 @@ def prepare(problem: SteadyProblem, threads: int = 1) -> SteadySetup:
     library = fastest_transforms()
     transforms = transforms_by(library, threads)
     given, axis, contact = problem.contact.grid, problem.axis, problem.contact
+    if problem.motion.spin and isinstance(given, Grid) and any(given.periodic):
+        raise ValueError(
+            "spin: a body without end does not turn over the surface; leave spin out, or give a "
+            "body that ends and a grid without a period"
+        )
     check_ends(contact)
     check_endless(contact.cut_indenter, given if isinstance(given, Grid) else None)
     if isinstance(given, Grid):

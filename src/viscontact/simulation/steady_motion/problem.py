@@ -144,6 +144,8 @@ def _check_coupled(contact: Problem, motion: SteadyMotion) -> None:
         refuse_coupled(contact, "in steady motion over layers")
     if motion.lateral_creepage:
         refuse_coupled(contact, "under a lateral creepage in steady motion (only over time)")
+    if motion.spin:
+        refuse_coupled(contact, "under spin")
 
 
 def _check_bodies(contact: Problem, axis: int, rolling: bool | None) -> None:

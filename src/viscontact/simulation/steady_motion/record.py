@@ -97,6 +97,8 @@ def describe_steady_problem(problem: SteadyProblem, grid: Grid | None) -> dict[s
     creeping = {"creepage": describe(np.array(creepages))} if creepages else {}
     if problem.motion.lateral_creepage is not None:
         creeping["lateral_creepage"] = problem.motion.lateral_creepage
+    if problem.motion.spin is not None:
+        creeping["spin"] = problem.motion.spin
     rubbing = {} if friction is None else {"friction": describe(friction)}
     return {
         "indenter": describe(contact.indenter),

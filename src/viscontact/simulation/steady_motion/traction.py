@@ -12,6 +12,7 @@ from viscontact.backend.errors import ConvergenceError
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.backend.transforms import Transforms
 from viscontact.bodies.grid import Grid
+from viscontact.bodies.loads.steady_motion import SteadyMotion
 from viscontact.mechanics.contact.friction.discs import lengths
 from viscontact.mechanics.contact.friction.entry import entry_compliance
 from viscontact.mechanics.contact.friction.newton_step import OWN
@@ -52,15 +53,15 @@ class TractionSolver:
         """
         under = _Pressed.of(self.problem, contact, self.transforms)
         shear = moving_shear(self.laws, contact.speed, max(contact.grid.size_about_origin))
-        lateral = self.problem.motion.lateral_creepage or 0.0
-        posed = replace(_posed(under, shear, self.transforms), lateral=lateral)
+        askew = _askew(under, self.problem.motion)
+        posed = replace(_posed(under, shear, self.transforms), askew=askew)
         if along is not None:
             stretch = along - np.roll(along, -1, axis=1 + under.axis)
             posed = replace(posed, stretch=stretch[:, *under.region.cut])
         found = []
         start = np.zeros((2, *under.region.shape))
         for creepage in self.problem.motion.creepages:
-            if creepage or lateral or along is not None:
+            if creepage or askew is not None or along is not None:
                 solution = self._solved(posed, creepage, start, contact.speed)
                 start = solution.traction
             else:
@@ -155,6 +156,22 @@ def _posed(under: _Pressed, shear: MovingShear, transforms: Transforms) -> Rolli
         moving_shear_convolution(grid, shape, shear, axis, **options),
         moving_shear_preconditioner(shape, grid.cell_size, shear, axis, **options),
     )
+
+
+def _askew(under: _Pressed, motion: SteadyMotion) -> Floats | None:
+    """Slip over the way of the half-space by lateral creepage and spin [-]; None without both."""
+    lateral, spin, (rows, columns) = motion.lateral_creepage, motion.spin, under.region.cut
+    if not (lateral or spin):
+        return None
+    # It stays behind a surface that moves to the right, which is +x for a motion towards +y.
+    right = np.array([0.0, -1.0]) if under.axis == 0 else np.array([1.0, 0.0])
+    found = -(lateral or 0.0) * right[:, None, None]
+    if not spin:
+        return found
+    # In the middle of the way from one cell ahead.
+    x, y = under.grid.x[rows, None], under.grid.y[None, columns]
+    x, y = (x + under.way / 2, y) if under.axis == 0 else (x, y + under.way / 2)
+    return np.asarray(found + spin * np.stack(np.broadcast_arrays(y, -x)))
 
 
 def _without_traction(posed: RollingProblem) -> RollingSolution:

@@ -5,13 +5,13 @@ the motion a cell slips by
 
     w = A q + c,    A q = T q - (T q one cell ahead) + D q,    c = creepages times d,
 
-along the motion and, of a body that is askew, across it, with the displacement T q of tractions
-that move (`moving_shear`) and the compliance D of cells that enter (`entry`). Coulomb's law is q =
-P(q - w/r), with the projection P on the discs |q| <= μ p and any r > 0 in each cell: that of its
-own displacement, with D. Newton's method on this equation finds sticking cells, whose slip is
-brought to zero, and slipping ones, which stay on their circles, at once. A is not symmetric: its
-waves are shifted by a quarter of their length. GMRES solves the linear systems. It is
-preconditioned by the sum of the residuals over sticking cells from the cell
+along the motion and, of a body that is askew or spins, across it, with the displacement T q of
+tractions that move (`moving_shear`) and the compliance D of cells that enter (`entry`). Coulomb's
+law is q = P(q - w/r), with the projection P on the discs |q| <= μ p and any r > 0 in each cell:
+that of its own displacement, with D. Newton's method on this equation finds sticking cells, whose
+slip is brought to zero, and slipping ones, which stay on their circles, at once. A is not
+symmetric: its waves are shifted by a quarter of their length. GMRES solves the linear systems. It
+is preconditioned by the sum of the residuals over sticking cells from the cell
 ahead of them on, which is the inverse of the difference, and the inverse of T.
 """
 
@@ -59,7 +59,8 @@ class RollingProblem:
     preconditioner: PairFilter  # approximate inverse of T
     #: Slip over the way of a cell by the pressure of coupled bodies [m], (2, nx, ny).
     stretch: Floats | None = None
-    lateral: float = 0.0  # creepage across the motion, of the surface to its right [-]
+    #: Further slip over the way of a body without tractions, as across it and by spin [-].
+    askew: Floats | None = None  # (2, 1, 1) or of cells
 
     @cached_property
     def reference(self) -> Floats:
@@ -86,15 +87,13 @@ class RollingProblem:
 
     def drift(self, creepage: float) -> Floats:
         """Slip over the way of a cell of a body without tractions [m], (2, 1, 1) or of cells."""
-        found = np.asarray(self.way * self.creep(creepage)[:, None, None])
+        found = np.asarray(self.way * self.creep(creepage))
         return found if self.stretch is None else found + self.stretch
 
     def creep(self, creepage: float) -> Floats:
-        """Slip of the half-space under a body without tractions, along x and y, over the way."""
-        # It stays behind a surface that moves forwards or to the right: towards +x for +y.
-        right = np.array([0.0, -1.0]) if self.axis == 0 else np.array([1.0, 0.0])
-        found = creepage * np.eye(2)[self.axis]
-        return np.asarray(found - self.lateral * right if self.lateral else found)
+        """Slip over the way of a body without tractions [-], (2, 1, 1) or of cells."""
+        found = creepage * np.eye(2)[self.axis][:, None, None]
+        return np.asarray(found if self.askew is None else found + self.askew)
 
     def summed(self, field: Floats, sticks: Bools) -> Floats:
         """Sums over sticking cells, from the next cell ahead that does not stick on."""
@@ -126,8 +125,8 @@ def solve_rolling(
 ) -> RollingSolution:
     """Solve for the tractions under a creepage, from a guess; else from none and from sliding."""
     creep = problem.creep(creepage)
-    size = float(np.hypot(*creep)) or 1.0
-    slid = -(creep / size)[:, None, None] * problem.bound
+    size = lengths(creep)
+    slid = -creep / np.where(size > 0, size, 1.0) * problem.bound
     best: RollingSolution | None = None
     for guess in (start, np.zeros(start.shape), slid):
         found = _search(problem, creepage, guess, tolerance)
@@ -173,7 +172,7 @@ def _search(
 ) -> RollingSolution:
     """Newton's method from one guess."""
     drift = problem.drift(creepage)
-    creep = float(np.hypot(*problem.creep(creepage))) * problem.way
+    creep = float(lengths(problem.creep(creepage)).max()) * problem.way
     if problem.stretch is not None:
         creep = float(lengths(drift).max())
     traction = start * problem.in_contact
