@@ -269,13 +269,14 @@ def test_a_way_somewhat_longer_than_a_step_by_the_change_of_the_force_is_one_ste
                 found.append(each.duration)
         return found[-8:]
 
-    assert taken(jumps_in=1e-5) == close_to([0.1] * 8)
+    assert taken(jumps_in=1e-5, stretched=1.2) == close_to([0.1] * 8)
     assert taken() == close_to([0.05] * 8)
 
 
 def test_a_refused_step_is_shortened_though_the_way_is_somewhat_longer():
     load = ApproachHistory([0.0, 1.0], [1e-6, -1e-6])
-    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, jumps_in=1e-5)
+    options = {"jumps_in": 1e-5, "stretched": 1.4}
+    steps = AdaptiveSteps(adaptive_times(1.0, 1e-3), np.zeros(0), load, KELVIN, **options)
     steps.accept_step(0.0)
     for _ in range(12):
         before = steps.next_step().duration

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from viscontact.backend.arrays import Floats
 from viscontact.backend.lazy_dataclass import dataclass
 from viscontact.bodies.adhesion import Adhesion
+from viscontact.bodies.cohesive_laws import LAWS
 from viscontact.bodies.friction import Friction
 from viscontact.bodies.grid import AutomaticGrid, Grid
 from viscontact.bodies.indenters import Indenter
@@ -82,6 +83,10 @@ BODIES = ("half-space material", "indenter material")
 #: Error of the time steps between given times of an adhesive contact [-], and the shortest one of
 #: them, over the stretch of the load from kink to kink: a jump takes one.
 ADHESIVE_STEP_TOLERANCE, SHORTEST_ADHESIVE_STEP = 1e-3, 1e-5
+
+#: Way to a given time over the proposed step up to which one step takes it: steps that are somewhat
+#: too long are kept, but for those of a law that ends abruptly.
+STRETCHED, STRETCHED_ABRUPT = 1.4, 1.2
 
 #: Edge of the cell of an automatic grid that is not chosen yet [m].
 UNKNOWN_CELL = 1e100
@@ -432,8 +437,16 @@ class Problem:
         return time_integration.AdaptiveSteps(
             *(chosen, self.instants, self.history, creep, marks, self.surface.clocks),
             shown=None if self.adaptive else self.instants,
-            jumps_in=None if self.adhesion is None else SHORTEST_ADHESIVE_STEP,
+            **self.step_limits,
         )
+
+    @property
+    def step_limits(self) -> dict[str, Any]:
+        """Limits of steps that adhesion has: options of `AdaptiveSteps`; none without adhesion."""
+        if self.adhesion is None:
+            return {}
+        stretched = STRETCHED_ABRUPT if LAWS[self.adhesion.law].is_abrupt else STRETCHED
+        return {"jumps_in": SHORTEST_ADHESIVE_STEP, "stretched": stretched}
 
     @cached_property
     def data_times(self) -> tuple[DataTimes, ...]:

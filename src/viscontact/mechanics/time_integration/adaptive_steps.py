@@ -47,10 +47,8 @@ MIN_STEP_FRACTION = 1e-12
 #: step over that way from which on a state is looked for there again.
 PART_OF_WAY, LOOKED_AGAIN = 0.5, 1.5
 
-#: Change in a step, over the largest one, from which on the force begins to change within it; and
-#: way to a stop over the proposed step up to which one step takes it where the force limits steps.
-BEYOND, LONGEST_OVER_PROPOSED = 2.0, 1.2
-
+#: Change in a step, over the largest one, from which on the force begins to change within it.
+BEYOND = 2.0
 #: Longest first step after a kink, as a part of the interval to the next kink.
 FIRST_STEP_FRACTION = 0.02
 
@@ -65,7 +63,8 @@ class AdaptiveSteps:
     # which longer steps end, increasing: those at which a moving body has passed whole cells [s].
     # Over a step the rates of the clocks change little. States are requested at the end of each
     # step, or at the `shown` times only [s]. The shortest step is a part of the run, or the part
-    # `jumps_in` of the stretch of the load that it lies in: a jump of the contact takes one.
+    # `jumps_in` of the stretch of the load that it lies in: a jump of the contact takes one. Up to
+    # `stretched` proposed steps to a stop are one.
 
     def __init__(  # noqa: PLR0913
         self,
@@ -78,6 +77,7 @@ class AdaptiveSteps:
         *,
         shown: Floats | None = None,
         jumps_in: float | None = None,
+        stretched: float = 1.0,
     ) -> None:
         self._marks = np.empty(0) if marks is None else marks
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
@@ -92,7 +92,7 @@ class AdaptiveSteps:
         given = None if shown is None else shown.tolist()
         #: Requested times by the ends of the steps there; None: at the end of each step.
         self._shown = None if given is None else {snap_to_kink(t, stopping): t for t in given}
-        self._jumps_in = jumps_in
+        self._jumps_in, self._stretched = jumps_in, stretched
         inner = {stop for stop in stopping.tolist() if stop < self._end}
         self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
@@ -228,8 +228,8 @@ class AdaptiveSteps:
                 starts = step.is_jump or self._time in self._touches
                 before = 0.0 if starts else step.duration
                 self._duration = max(self._first_duration(), before)
-            stretch = 1.0 if self._jumps_in is None else LONGEST_OVER_PROPOSED
-            self._step = self._next_step(smooth=not (after_kink or jumped), stretch=stretch)
+            smooth = not (after_kink or jumped)
+            self._step = self._next_step(smooth, self._stretched)
 
     def _next_step(self, smooth: bool, stretch: float = 1.0) -> TimeStep:
         """Step of about the current duration, up to the next stop at most."""

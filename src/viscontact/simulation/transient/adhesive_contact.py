@@ -45,7 +45,7 @@ CHANGE_WHERE_PULLED, PULL_READ, LEAST_GROWTH = 0.045, 0.99, 0.02
 LARGEST_ERROR, ERROR_ORDER = 0.01, 3
 
 #: The same where the pull may be the largest one: a parabola through states reads it, whose error
-#: grows with the same power. Steps of the error above may miss 0.15 % of a sphere that is withdrawn
+#: grows with the same power. Steps of the error above may miss 0.12 % of a sphere that is withdrawn
 #: fast.
 LARGEST_ERROR_PULLED = 0.0065
 

@@ -24,7 +24,7 @@ from viscontact.bodies.loads import Condition, MixedHistory
 from viscontact.bodies.loads.program_sentences import SLIDING
 from viscontact.mechanics.contact.domain import ContactDomain
 from viscontact.mechanics.problem.kept_fields import NO_FIELDS
-from viscontact.mechanics.problem.problem import SHORTEST_ADHESIVE_STEP, Problem
+from viscontact.mechanics.problem.problem import Problem
 from viscontact.mechanics.state import ContactState, Outcome
 from viscontact.mechanics.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.mechanics.time_integration.fixed_steps import KINK_TOLERANCE, FixedSteps, TimeStep
@@ -201,9 +201,9 @@ class EventSearch:
             stops = wanted[(wanted > self._course.begin + margin) & (wanted < end - margin)]
         surface = self._run.problem.surface
         load = replace(self._run.problem, load=history).contact_load
-        jumps_in = None if self._run.law is None else SHORTEST_ADHESIVE_STEP
+        limits = self._run.problem.step_limits
         steps = AdaptiveSteps(
-            *(request, stops, load, surface.creep), clocks=surface.clocks, jumps_in=jumps_in
+            *(request, stops, load, surface.creep), clocks=surface.clocks, **limits
         )
         last = self._last
         begun = {"time": last.time - last.duration, "duration": last.duration, "growth": 1.0}

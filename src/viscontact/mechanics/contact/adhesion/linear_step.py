@@ -68,6 +68,8 @@ class LinearStep:
         self._periodic = along_x and whole_x, along_y and whole_y
         #: True if the patch is the whole grid, so that `solve` changes the displacement, too.
         self.is_whole = whole_x and whole_y
+        #: True if `solve` has ended at the tolerance, not where the residual was reduced.
+        self.meets_tolerance = False
         compliance, spacing = problem.contact.compliance, float(np.sqrt(patch.cell_area))
         self._free, self._compliance = problem.contact.constraints.free, compliance
         self._is_free = bool(self._free.any())
@@ -176,7 +178,8 @@ class LinearStep:
             return found.ravel()
 
         left, weights = right.ravel(), []
-        goal = max(reduction * norm(left), tolerance * self._scale)
+        goal, least = reduction * norm(left), tolerance * self._scale
+        self.meets_tolerance, goal = goal <= least, max(goal, least)
         if self._lacking.any():
             left, weights = left - image(right, self._lacking), [1.0]
         factors, _ = gmres(lambda vector: image(vector, NO_MOTION), left, goal, MAX_VECTORS)

@@ -38,7 +38,7 @@ REDUCTION_AFAR, REDUCTION, NEAR = 7e-2, 1e-3, 1e-2
 
 #: Part of the tolerance down to which a linear system is solved, in its norm, which is larger than
 #: the largest residual.
-INNER_TOLERANCE = 1.0
+INNER_TOLERANCE = 1.5
 
 #: Reduction far from the solution, and that part, of a law that ends abruptly: near the end of a
 #: state, where its front holds to cells, a search finds it or not by how it errs.
@@ -119,10 +119,11 @@ def _after_step(
     system = LinearStep.of(problem, domain, iterate, checked, tolerance)
     reduction = REDUCTION if checked.error <= NEAR else afar
     motion = system.solve(iterate, reduction, inner * tolerance)
-    if not system.is_whole:
+    # A step to the tolerance is checked at once.
+    is_guess = system.is_whole and not system.meets_tolerance
+    if not is_guess:
         domain.convolution.apply(iterate.pressure, into=iterate.unit_displacement)
-    spent = system.convolutions + (not system.is_whole)
-    return Guess(iterate.values, motion), system.is_whole, spent
+    return Guess(iterate.values, motion), is_guess, system.convolutions + (not is_guess)
 
 
 class SearchCourse:

@@ -215,10 +215,11 @@ class _Held:
 
     def carried(self, known: ReturnedChange, falls: Floats) -> _Answer:
         """Answer to about the change that one of a state before returns."""
-        before, contact = self.answer(known.pressure, falls), self.in_contact
+        opened, contact = self._opened_by(known.pressure), self.in_contact
         # Cells that have parted open about as far as those beside them, and those that have met
         # are pressed as those.
-        opened = _filled(np.where(known.in_contact, 0.0, before.opened), known.in_contact, contact)
+        opened[known.in_contact] = 0.0
+        opened = _filled(opened, known.in_contact, contact)
         change = falls * opened
         if not change.any():  # the front of a law that ends abruptly has left all of its cells
             change = falls.copy()
@@ -276,7 +277,8 @@ class _Held:
         self, start: Guess, change: Floats, falls: Floats, goals: tuple[float, float]
     ) -> _Answer:
         """Answer to a change [Pa] from a start, whose memory is used, to a reduction and a goal."""
-        yielded = self._opened(start) if start.pressure.any() else 0.0
+        held = Guess(start.values, start.motion / self._compliance)
+        yielded = self._opened_by(held) if start.pressure.any() else 0.0
         posed = AdhesiveResidual(
             np.where(self.in_contact, -yielded, 1.0),
             Attraction(change, np.zeros(self.domain.shape)),
@@ -290,16 +292,15 @@ class _Held:
             self.domain.convolution.apply(start.pressure, into=start.unit_displacement)
         return self.answer(Guess(start.values, motion / self._compliance), falls)
 
-    def _opened(self, start: Guess) -> Floats:
-        """How far surfaces approach each other under a pressure and a motion [m]."""
-        plane = self.domain.whole.plane.field(start.motion)
-        return np.asarray(plane - self._compliance * start.unit_displacement)
+    def _opened_by(self, pressure: Guess) -> Floats:
+        """How far surfaces approach each other under a pressure, and motion over compliance [m]."""
+        opened = self.domain.whole.plane.field(pressure.motion) - pressure.unit_displacement
+        opened *= self._compliance
+        return np.asarray(opened)
 
     def answer(self, pressure: Guess, falls: Floats) -> _Answer:
         """Answer that a change of the pressure is, with its motion over the compliance."""
-        plane = self.domain.whole.plane.field(pressure.motion)
-        opened = self.problem.contact.compliance * (plane - pressure.unit_displacement)
-        change = -pressure.pressure
+        opened, change = self._opened_by(pressure), -pressure.pressure
         change[self.in_contact] = 0.0
         return _Answer(pressure, change, opened, falls * opened)
 
