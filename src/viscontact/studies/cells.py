@@ -45,12 +45,14 @@ def shape_setting(shape: tuple[int, int]) -> dict[str, str]:
 
 
 def grid_setting(grid: Grid) -> dict[str, str]:
-    """Setting of a case for a grid that is not periodic."""
+    """Setting of a case for a grid."""
     (shape,) = shape_setting(grid.shape).values()
     lengths, centre = (
         ", ".join(f"{each!r} m" for each in map(float, pair)) for pair in (grid.size, grid.centre)
     )
-    return {"grid": f"{{shape: {shape}, size: [{lengths}], centre: [{centre}]}}"}
+    periodic = ", ".join(str(each).lower() for each in map(bool, grid.periodic))
+    own = f"shape: {shape}, size: [{lengths}], centre: [{centre}], periodic: [{periodic}]"
+    return {"grid": f"{{{own}}}"}
 
 
 #: Cells that may be longer than those that another run would choose by this factor.
@@ -58,7 +60,10 @@ TOLERATED = 1.5
 
 
 def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
-    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one."""
+    """Return a grid over the extents of all grids, whose cells lie on those of the nominal one.
+
+    Along an axis that is periodic it is the nominal one: another period would be another contact.
+    """
     cell = np.array(nominal.cell_size)
     finest = np.min([each.cell_size for each in (nominal, *others)], axis=0)
     # Parts of whole cells still end where a straight part of the body ends.
@@ -70,4 +75,10 @@ def covering(nominal: Grid, others: Sequence[Grid]) -> Grid:
     ]
     counts = good_shape(2 * np.max(reach, axis=0) / cell - 1e-6, np.inf)
     size = (float(counts[0] * cell[0]), float(counts[1] * cell[1]))
-    return Grid(counts, size, nominal.periodic, centre=nominal.centre)
+    repeats_x, repeats_y = nominal.periodic
+    shape = (
+        nominal.shape[0] if repeats_x else counts[0],
+        nominal.shape[1] if repeats_y else counts[1],
+    )
+    lengths = (nominal.size[0] if repeats_x else size[0], nominal.size[1] if repeats_y else size[1])
+    return Grid(shape, lengths, nominal.periodic, centre=nominal.centre)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,16 @@ def test_the_setting_of_a_grid_is_read_back(tmp_path: Path) -> None:
     text = HERTZ[: HERTZ.index("grid")]
     [setting] = [f"{key}={value}" for key, value in grid_setting(NOMINAL).items()]
     assert read_case(written(tmp_path, text), [setting]).grid == NOMINAL
+
+
+def test_a_line_contact_keeps_its_period_along_the_line(tmp_path: Path) -> None:
+    line = replace(NOMINAL, shape=(1, 40), size=(1.0, 4e-3), periodic=(True, False))
+    found = covering(line, [replace(line, shape=(1, 64), size=(1.0, 8e-3))])
+    assert (found.shape[0], found.size[0], found.periodic) == (1, 1.0, line.periodic)
+    assert found.size[1] >= 8e-3
+    path = written(tmp_path, HERTZ[: HERTZ.index("grid")])
+    [setting] = [f"{key}={value}" for key, value in grid_setting(found).items()]
+    assert read_case(path, [setting]).grid == found
 
 
 def test_coarser_cells_are_twice_as_long() -> None:

@@ -65,6 +65,16 @@ def test_all_inputs_of_a_hertzian_contact_are_within_their_errors(tmp_path: Path
     assert not deviations(found, wanted)
 
 
+def test_a_line_contact_on_a_grid_of_its_own_keeps_its_load_per_length(tmp_path: Path) -> None:
+    # Johnson (1985), eq. 4.45, of 10 N on a period of 1 m.
+    path = written(tmp_path, LINE[: LINE.index("grid")] + "grid: {tolerance: 2 %}\n")
+    found = vc.sensitivity(path, "peak_pressure", change=["load.force"], workers=1)
+    one = found.table.sel(output="peak_pressure", input="load.force")
+    peak = (10.0 * 10e6 / (1 - 0.4**2) / (np.pi * 0.01)) ** 0.5
+    assert float(one.value) == close_to(peak, rel=0.02)
+    assert float(one.elasticity) == close_to(1 / 2, abs=0.01)
+
+
 @pytest.mark.slow
 def test_a_line_contact_follows_the_square_root_of_its_load(tmp_path: Path) -> None:
     # Johnson (1985), eqs. 4.43 to 4.45.
