@@ -84,7 +84,7 @@ def stability(
 ) -> tuple[float, ReturnedChange | None]:
     """Factor by which a small change of the attraction returns, < 1 if stable; and that change.
 
-    `known` is that of a state before.
+    `known` is that of a state before; of a law that rises first it is of no use, and not returned.
     """
     pulled = attraction(problem.law, solution.gap, domain.periodic)
     falls = np.where(solution.in_contact, 0.0, -pulled.slope)
@@ -113,6 +113,8 @@ def stability(
         change, share = _apart(found[-1].returned, [each.attraction for each in found])
         limit = NEGLIGIBLE_SLOPE
     factor, weights = _largest_ratio(found, np.flatnonzero(solution.in_contact))
+    if not decreases:
+        return factor, None
     values = _sum(weights, [each.pressure.values for each in found])
     motion = _sum(weights, [each.pressure.motion for each in found])
     return factor, ReturnedChange(values, motion, solution.in_contact, held.free)
