@@ -275,6 +275,24 @@ def test_lateral_creepage_of_a_case_is_in_the_check_and_refused_of_coupled_bodie
             vc.steady(*coupled, friction=0.3, creepage=0.0, **given)
 
 
+def test_force_across_the_motion_is_shown_of_a_body_that_rolls_askew(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, (", creepage: [1 %, 3 %, -2 %]", ", creepage: [0, 1 %]"))
+    assert main(["run", str(path), "-q", "-o", str(tmp_path / "ahead")]) == 0
+    askew = ["--set", "motion.lateral_creepage=1 %", "-o", str(tmp_path / "askew")]
+    assert main(["run", str(path), "-q", *askew]) == 0
+    capsys.readouterr()
+    shown = []
+    for name in ("ahead", "askew"):
+        assert main(["show", str(tmp_path / name)]) == 0
+        shown.append(capsys.readouterr().out)
+        assert main(["report", str(tmp_path / name)]) == 0
+        capsys.readouterr()
+        shown[-1] += (tmp_path / name / "report.html").read_text(encoding="utf-8")
+    assert ["force along x per length" in each for each in shown] == [False, True]
+
+
 def test_spin_of_a_case_is_in_the_check_and_refused_of_bodies_without_end(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -72,10 +73,23 @@ def traction_curves(results: xr.Dataset) -> TractionCurves:
     return TractionCurves(ordered["speed"].values, ordered["creepage"].values, parts, errors)
 
 
+def shown_forces(results: xr.Dataset) -> list[str]:
+    """Names of the forces that tables show: across the motion where the body rolls askew."""
+    along = results.attrs["along"]
+    motion, across = case_of(results)["motion"], {"x": "y", "y": "x"}[along]
+    is_askew = any(motion.get(name) for name in ("lateral_creepage", "spin"))
+    names = [f"tangential_force_{each}" for each in ((along, across) if is_askew else (along,))]
+    return _shown_per_length(results, names)
+
+
 def tabled_names(results: xr.Dataset) -> list[str]:
     """Names of the values over the creepage that a table shows."""
-    force = f"tangential_force_{results.attrs['along']}"
-    names = (force, "slip_fraction", "drive_torque", "friction_power", "traction_dissipation")
+    names = ("slip_fraction", "drive_torque", "friction_power", "traction_dissipation")
+    return [*shown_forces(results), *_shown_per_length(results, names)]
+
+
+def _shown_per_length(results: xr.Dataset, names: Sequence[str]) -> list[str]:
+    """The names, of a line contact per unit length, of the values that are known."""
     lengths = {name: per_length(name) for name in names}
     found = [each if (each := lengths[name]) in results else name for name in names]
     return [name for name in found if np.isfinite(results[name].values).any()]

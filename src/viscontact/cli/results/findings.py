@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xarray as xr
 
-from viscontact.cli.results.traction_table import traction_table
+from viscontact.cli.results.traction_table import traction_tables
 from viscontact.cli.terminal.console import TextConsole, styled
 from viscontact.cli.terminal.messages import put
 from viscontact.results.contact_spots import last_spots
@@ -21,7 +21,8 @@ def print_findings(console: TextConsole, ds: xr.Dataset) -> None:
     if spots := last_spots(ds):
         put(spots.text)
     if has_creepages(ds):
-        console.print(traction_table(ds), crop=False)
+        for table in traction_tables(ds):
+            console.print(table, crop=False)
     for line in leakage_lines(ds):
         put(line)
     for event in recorded_events(ds):

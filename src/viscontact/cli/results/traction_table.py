@@ -10,7 +10,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from viscontact.results.formatting import format_with_error_in
-from viscontact.results.rolling import tabled_names
+from viscontact.results.rolling import shown_forces
 from viscontact.results.run_axis import SPEED
 from viscontact.results.shown_rows import shown_rows
 from viscontact.results.variables import CURVES, error_name
@@ -20,9 +20,14 @@ from viscontact.units.formatting import ReadableUnit, readable_unit
 MOST_CREEPAGES, MOST_SPEEDS = 4, 8
 
 
-def traction_table(ds: xr.Dataset) -> Table:
-    """Tangential force at some of the creepages, and the least one at which the body slides."""
-    name, ordered = tabled_names(ds)[0], ds.sortby(["speed", "creepage"])
+def traction_tables(ds: xr.Dataset) -> list[Table]:
+    """A table for each tangential force of a body that rolls."""
+    return [_traction_table(ds, name) for name in shown_forces(ds)]
+
+
+def _traction_table(ds: xr.Dataset, name: str) -> Table:
+    """A force at some of the creepages, and the least one at which the body slides."""
+    ordered = ds.sortby(["speed", "creepage"])
     creepages = shown_rows(ordered.sizes["creepage"], MOST_CREEPAGES)
     unit = readable_unit(CURVES[name].units, float(np.nanmax(np.abs(ds[name].values))))
     title = f"{unit.label(CURVES[name].label)} at a creepage of"
