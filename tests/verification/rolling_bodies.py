@@ -13,6 +13,11 @@ MU, RADIUS, LINE_LOAD = 0.3, 0.01, 100.0
 RUBBER = vc.Material(vc.Elastic(1 / 3 * 1e6), 0.5)
 HELD = {"tilt_x": 0.0, "tilt_y": 0.0}
 
+#: C11, C22 and C23 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3.
+LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
+LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
+BY_SPIN = {0.0: 1.33, 0.25: 1.47, 0.5: 1.63}
+
 
 def half_width(compliance: float, force: float = LINE_LOAD, radius: float = RADIUS) -> float:
     """Half width of a line contact of contact compliance J [1/Pa] (Hertz) [m]."""

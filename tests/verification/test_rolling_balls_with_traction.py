@@ -9,14 +9,9 @@ import pytest
 
 import viscontact as vc
 from closeness import close_to
-from verification.rolling_bodies import HELD, MU
+from verification.rolling_bodies import HELD, LATERAL, LONGITUDINAL, MU
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-
-
-#: C11 and C22 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
-LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
-LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
 
 
 def ball_rolled(

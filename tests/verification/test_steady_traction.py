@@ -11,22 +11,21 @@ import xarray as xr
 
 import viscontact as vc
 from closeness import close_to
+from verification.rolling_bodies import (
+    BY_SPIN,
+    FULL,
+    HALF,
+    LATERAL,
+    LINE_LOAD,
+    LONGITUDINAL,
+    MU,
+    RADIUS,
+    RUBBER,
+    half_width,
+)
 from viscontact.simulation.steady_motion import traction
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-
-MU, RADIUS, LINE_LOAD = 0.3, 0.01, 100.0
-RUBBER = vc.Material(vc.Elastic(1 / 3 * 1e6), 0.5)
-
-
-def half_width(compliance: float) -> float:
-    """Half width of a line contact of contact compliance J [1/Pa] (Hertz) [m]."""
-    return math.sqrt(4 * LINE_LOAD * RADIUS * compliance / math.pi)
-
-
-#: J = (1 - ν)/(2G) of the rubber.
-HALF = half_width(0.75e-6)
-FULL = MU * HALF / RADIUS  # creepage from which on all slips (Carter)
 
 
 def rolled(cells: int, creepage: Any, **given: Any) -> xr.Dataset:
@@ -179,14 +178,6 @@ def loss_of_strips(ds: xr.Dataset, speed: float) -> float:
 
 def _log_primitive(y: Any) -> Any:
     return y * np.log(np.maximum(np.abs(y), 1e-300)) - y
-
-
-#: C11 and C22 of a circle at ν = 0, 0.25 and 0.5: J. J. Kalker (1990), table E.3, to three digits.
-LONGITUDINAL = {0.0: 3.40, 0.25: 4.12, 0.5: 5.20}
-LATERAL = {0.0: 3.40, 0.25: 3.67, 0.5: 3.98}
-
-#: C23 there.
-BY_SPIN = {0.0: 1.33, 0.25: 1.47, 0.5: 1.63}
 
 
 def ball(

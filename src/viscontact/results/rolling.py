@@ -73,12 +73,17 @@ def traction_curves(results: xr.Dataset) -> TractionCurves:
     return TractionCurves(ordered["speed"].values, ordered["creepage"].values, parts, errors)
 
 
+def rolls_askew(results: xr.Dataset) -> bool:
+    """True for a body with a lateral creepage or a spin, which is pushed across its motion, too."""
+    motion = case_of(results)["motion"]
+    return any(motion.get(name) for name in ("lateral_creepage", "spin"))
+
+
 def shown_forces(results: xr.Dataset) -> list[str]:
     """Names of the forces that tables show: across the motion where the body rolls askew."""
     along = results.attrs["along"]
-    motion, across = case_of(results)["motion"], {"x": "y", "y": "x"}[along]
-    is_askew = any(motion.get(name) for name in ("lateral_creepage", "spin"))
-    names = [f"tangential_force_{each}" for each in ((along, across) if is_askew else (along,))]
+    across = {"x": "y", "y": "x"}[along] if rolls_askew(results) else ""
+    names = [f"tangential_force_{each}" for each in (*along, *across)]
     return _shown_per_length(results, names)
 
 

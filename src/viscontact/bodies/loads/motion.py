@@ -211,12 +211,8 @@ def checked_creepage(creepage: float | None, *, rolling: bool | None) -> float |
     """Return a creepage between -1 and 1 of a body that rolls, or None; else raise ValueError."""
     if creepage is None:
         return None
-    number = finite("creepage", creepage, "1")
-    if not -LARGEST_CREEPAGE < number < LARGEST_CREEPAGE:
-        raise ValueError(
-            f"creepage must lie between -1 and 1, got {creepage!r}: it is the surface speed of the "
-            "body over its travel, less 1; write 0.003 for 0.3 %"
-        )
+    about = "the surface speed of the body over its travel, less 1"
+    number = _share_of_travel("creepage", creepage, about)
     if rolling is False:
         raise ValueError(
             f"creepage goes with a body that rolls, got creepage={creepage!r} and rolling=False; "
@@ -229,16 +225,22 @@ def checked_lateral_creepage(lateral: float | None, *, creepage: float | None) -
     """Return a lateral creepage between -1 and 1 beside a creepage, or None; else ValueError."""
     if lateral is None:
         return None
-    number = finite("lateral_creepage", lateral, "1")
-    if not -LARGEST_CREEPAGE < number < LARGEST_CREEPAGE:
-        raise ValueError(
-            f"lateral_creepage must lie between -1 and 1, got {lateral!r}: it is the speed of the "
-            "body's surface across its travel over that travel; write 0.003 for 0.3 %"
-        )
+    about = "the speed of the body's surface across its travel over that travel"
+    number = _share_of_travel("lateral_creepage", lateral, about)
     if creepage is None:
         raise ValueError(
             f"lateral_creepage goes with a creepage, which may be 0, got lateral_creepage="
             f"{lateral!r} without one; give the creepage, too, as in creepage=0.0"
+        )
+    return number
+
+
+def _share_of_travel(name: str, given: float, about: str) -> float:
+    """Return a share between -1 and 1; ValueError for another one, with what it is about."""
+    number = finite(name, given, "1")
+    if not -LARGEST_CREEPAGE < number < LARGEST_CREEPAGE:
+        raise ValueError(
+            f"{name} must lie between -1 and 1, got {given!r}: it is {about}; write 0.003 for 0.3 %"
         )
     return number
 

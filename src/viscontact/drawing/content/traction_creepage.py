@@ -13,7 +13,7 @@ from viscontact.drawing.content.friction import contact_series, round_body
 from viscontact.drawing.content.look import LIGHT, Look
 from viscontact.drawing.content.panel import FAINT, FIRST, PERCENT, Axis, Curve, Ink, Mark, Panel
 from viscontact.results.recorded_case import case_of
-from viscontact.results.rolling import TractionCurves, traction_curves
+from viscontact.results.rolling import TractionCurves, rolls_askew, traction_curves
 from viscontact.results.shown_rows import shown_rows
 from viscontact.units.formatting import format_quantity, readable_unit
 
@@ -83,8 +83,7 @@ def _carter(run: xr.Dataset, creepages: Floats) -> list[Curve]:
     line = run["force_per_length"].values if "force_per_length" in run else None
     if not isinstance(body, Paraboloid) or series is None or line is None:
         return []
-    motion = case_of(run)["motion"]
-    if motion.get("lateral_creepage") or motion.get("spin"):  # which take a part of the friction
+    if rolls_askew(run):  # which takes a part of the friction
         return []
     coefficient = float(case_of(run)["friction"]["coefficient"])
     relaxed = series.instant + float(series.amplitudes.sum())
